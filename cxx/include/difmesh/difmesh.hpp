@@ -1,0 +1,14 @@
+#pragma once
+/// \file difmesh.hpp
+/// All of the core in one include.
+
+#include "difmesh/error.hpp"
+#include "difmesh/field_view.hpp"
+#include "difmesh/grid.hpp"
+#include "difmesh/mesh.hpp"
+#include "difmesh/normals.hpp"
+#include "difmesh/options.hpp"
+#include "difmesh/plane.hpp"
+#include "difmesh/reconstruct.hpp"
+#include "difmesh/version.hpp"
+#include "difmesh/weld.hpp"

@@ -1,0 +1,333 @@
+#include "classify.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "difmesh/error.hpp"
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+namespace difmesh::detail {
+namespace {
+
+// Cells are taken in groups of 64: one word of bits. Sums are kept in eight lanes of a group, so
+// that the compiler may use vectors of any width and still gets the same bits.
+constexpr std::int64_t kGroup = 64;
+constexpr std::size_t kLanes = 8;
+
+struct Statistics {
+  std::int64_t interfacial = 0;
+  std::int64_t clamped = 0;
+  double overshoot = 0.0;
+  double sum = 0.0;
+  std::int64_t first_bad = -1;  // cell number in the block with its ghosts, in the order z, y, x
+
+  void add(const Statistics& other) {
+    interfacial += other.interfacial;
+    clamped += other.clamped;
+    overshoot = std::max(overshoot, other.overshoot);
+    sum += other.sum;
+    note_bad(other.first_bad);
+  }
+  void note_bad(std::int64_t number) {
+    if (number >= 0 && (first_bad < 0 || number < first_bad)) {
+      first_bad = number;
+    }
+  }
+};
+
+template <class T>
+std::uint64_t inside_bits(const T* values) {
+  std::uint64_t word = 0;
+#ifdef __SSE2__
+  if constexpr (std::is_same_v<T, float>) {
+    const __m128 half = _mm_set1_ps(0.5f);
+    for (int i = 0; i < 16; ++i) {
+      const int four = _mm_movemask_ps(_mm_cmpge_ps(_mm_loadu_ps(values + 4 * i), half));
+      word |= static_cast<std::uint64_t>(four) << (4 * i);
+    }
+    return word;
+  } else if constexpr (std::is_same_v<T, double>) {
+    const __m128d half = _mm_set1_pd(0.5);
+    for (int i = 0; i < 32; ++i) {
+      const int two = _mm_movemask_pd(_mm_cmpge_pd(_mm_loadu_pd(values + 2 * i), half));
+      word |= static_cast<std::uint64_t>(two) << (2 * i);
+    }
+    return word;
+  }
+#endif
+  for (int i = 0; i < kGroup; ++i) {
+    word |= static_cast<std::uint64_t>(fraction_of(values[i]) >= 0.5) << i;
+  }
+  return word;
+}
+
+// True if all values of a group equal the first, bit for bit.
+template <class T>
+bool is_uniform(const T* values) {
+  return std::memcmp(values, values + 1, static_cast<std::size_t>(kGroup - 1) * sizeof(T)) == 0;
+}
+
+template <class T>
+class RowClassifier {
+ public:
+  RowClassifier(double tolerance, double bound) : tolerance_(tolerance), bound_(bound) {}
+
+  // Bits of up to 64 cells; adds their facts to the statistics. `number` is that of the first cell.
+  std::uint64_t group(const T* values, std::int64_t stride, std::int64_t count, std::int64_t number,
+                      Statistics& statistics) const {
+    T copy[kGroup] = {};
+    if (stride != 1 || count < kGroup) {
+      for (std::int64_t i = 0; i < count; ++i) {
+        copy[i] = values[i * stride];
+      }
+      values = copy;
+    }
+    if (count == kGroup && (values[0] == T(0) || fraction_of(values[0]) == 1.0) &&
+        is_uniform(values)) {
+      if constexpr (std::is_integral_v<T>) {
+        statistics.sum += values[0] != 0 ? kGroup : 0;
+        return values[0] != 0 ? ~std::uint64_t{0} : 0;
+      } else if (values[0] == T(0) || values[0] == T(1)) {
+        statistics.sum += values[0] != T(0) ? kGroup : 0;
+        return values[0] != T(0) ? ~std::uint64_t{0} : 0;
+      }
+    }
+    mixed(values, count, number, statistics);
+    const std::uint64_t bits = inside_bits(values);
+    return count == kGroup ? bits : bits & below(static_cast<int>(count));
+  }
+
+ private:
+  void mixed(const T* values, std::int64_t count, std::int64_t number,
+             Statistics& statistics) const {
+    double lanes[kLanes] = {};
+    std::int64_t interfacial = 0;
+    double lowest = 0.0;
+    double highest = 1.0;
+    std::int64_t outside = 0;
+    bool numbers = true;
+    const double low = tolerance_;
+    const double high = 1.0 - tolerance_;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(kGroup); ++i) {
+      // Cells past the end of the row are zeros, which add nothing to anything.
+      const double fraction = fraction_of(values[i]);
+      lanes[i % kLanes] += fraction;
+      interfacial +=
+          static_cast<std::int64_t>(fraction > low) & static_cast<std::int64_t>(fraction < high);
+      if constexpr (!std::is_integral_v<T>) {
+        const auto value = static_cast<double>(values[i]);
+        numbers = numbers & (value == value);
+        lowest = value < lowest ? value : lowest;
+        highest = value > highest ? value : highest;
+        outside += static_cast<std::int64_t>(value < 0.0) | static_cast<std::int64_t>(value > 1.0);
+      }
+    }
+    statistics.interfacial += interfacial;
+    statistics.clamped += outside;
+    statistics.overshoot = std::max({statistics.overshoot, -lowest, highest - 1.0});
+    statistics.sum += ((lanes[0] + lanes[4]) + (lanes[1] + lanes[5])) +
+                      ((lanes[2] + lanes[6]) + (lanes[3] + lanes[7]));
+    if (!(numbers && -lowest <= bound_ && highest - 1.0 <= bound_)) {
+      statistics.note_bad(number + first_bad(values, count));
+    }
+  }
+
+  std::int64_t first_bad(const T* values, std::int64_t count) const {
+    std::int64_t i = 0;
+    while (i + 1 < count && static_cast<double>(values[i]) >= -bound_ &&
+           static_cast<double>(values[i]) - 1.0 <= bound_) {
+      ++i;
+    }
+    return i;
+  }
+
+  double tolerance_;
+  double bound_;
+};
+
+// Reads one row of cells in memory; j and k are counted in the field view. Rows of the block leave
+// their bits, with the first cell of the block at bit 1; ghost cells are checked only.
+template <class T>
+void classify_row(const BlockField& field, const RowClassifier<T>& classifier, const Index3& start,
+                  NodeBits* nodes, Statistics& statistics) {
+  const FieldView& view = field.view;
+  const T* row =
+      static_cast<const T*>(view.data) + start[1] * view.strides[1] + start[2] * view.strides[2];
+  const std::int64_t number = (start[2] * view.dims[1] + start[1]) * view.dims[0];
+  const auto run = [&](std::int64_t from, std::int64_t to, std::uint64_t* words,
+                       Statistics& facts) {
+    for (std::int64_t i = from; i < to; i += kGroup) {
+      const std::int64_t count = std::min(kGroup, to - i);
+      const std::uint64_t bits =
+          classifier.group(row + i * view.strides[0], view.strides[0], count, number + i, facts);
+      if (words != nullptr) {
+        const std::int64_t w = (i - from) / kGroup;
+        words[w] |= bits << 1;
+        if (bits >> 63 != 0) {
+          words[w + 1] |= 1;
+        }
+      }
+    }
+  };
+  const std::int64_t first = field.block.ghost_low[0];
+  const std::int64_t last = first + field.block.dims[0];
+  Statistics ghosts;
+  run(0, first, nullptr, ghosts);
+  if (nodes == nullptr) {
+    run(first, last, nullptr, ghosts);
+  } else {
+    const std::int64_t j = start[1] - field.block.ghost_low[1] + 1;
+    const std::int64_t k = start[2] - field.block.ghost_low[2] + 1;
+    run(first, last, nodes->row(j, k), statistics);
+  }
+  run(last, view.dims[0], nullptr, ghosts);
+  statistics.note_bad(ghosts.first_bad);
+}
+
+[[noreturn]] void throw_bad_cell(const BlockField& field, std::int64_t number, double bound) {
+  const Index3 local{number % field.view.dims[0], number / field.view.dims[0] % field.view.dims[1],
+                     number / field.view.dims[0] / field.view.dims[1]};
+  const Index3 cell{local[0] + field.axes[0].low, local[1] + field.axes[1].low,
+                    local[2] + field.axes[2].low};
+  const double value = with_scalar(field.view.type, [&](auto type) {
+    using T = decltype(type);
+    return static_cast<double>(static_cast<const T*>(field.view.data)[field.element(cell)]);
+  });
+  std::ostringstream text;
+  text.precision(9);
+  text << "cell (" << cell[0] << ", " << cell[1] << ", " << cell[2] << ") holds " << value;
+  if (std::isfinite(value)) {
+    text << ", further outside [0, 1] than the overshoot bound of " << bound;
+  } else {
+    text << ", which is no fraction";
+  }
+  throw Error(ErrorCode::invalid_value, text.str());
+}
+
+// Sets the bits of the nodes that are not cells of the block.
+class BeyondFiller {
+ public:
+  BeyondFiller(const BlockField& field, NodeBits& nodes) : field_(field), nodes_(nodes) {}
+
+  void fill() {
+    const Index3& first = nodes_.first();
+    const Index3& last = nodes_.last();
+    for (std::int64_t k = 1; k < last[2]; ++k) {
+      for (std::int64_t j = 1; j < last[1]; ++j) {
+        set_ends(j, k);
+      }
+    }
+    for (std::int64_t k = first[2]; k <= last[2]; ++k) {
+      for (std::int64_t j = first[1]; j <= last[1]; ++j) {
+        if (!is_own(1, j) || !is_own(2, k)) {
+          fill_row(j, k);
+        }
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] bool is_own(std::size_t axis, std::int64_t local) const {
+    return local >= 1 && local <= field_.block.dims[axis];
+  }
+  // On open sides the node on the domain face stands for the last cell.
+  [[nodiscard]] std::int64_t cell_of(std::size_t axis, std::int64_t local) const {
+    const std::int64_t resolved = field_.axes[axis].resolve(local - 1 + field_.block.offset[axis]);
+    if (resolved == kMissing) {
+      return local == 0 ? 0 : field_.grid.dims[axis] - 1;
+    }
+    return resolved;
+  }
+  void set_node(const Index3& node) {
+    const Index3 cell{cell_of(0, node[0]), cell_of(1, node[1]), cell_of(2, node[2])};
+    nodes_.set(node, field_.fraction(cell) >= 0.5);
+  }
+  void set_ends(std::int64_t j, std::int64_t k) {
+    if (nodes_.first()[0] == 0) {
+      set_node({0, j, k});
+    }
+    set_node({nodes_.last()[0], j, k});
+  }
+  // A whole row: constant beyond `empty` and `full`, else that of the cells it stands for.
+  void fill_row(std::int64_t j, std::int64_t k) {
+    const std::int64_t cell_j = cell_of(1, j);
+    const std::int64_t cell_k = cell_of(2, k);
+    if (!is_cell(cell_j) || !is_cell(cell_k)) {
+      const bool inside = cell_j != kEmptyBeyond && cell_k != kEmptyBeyond;
+      for (std::int64_t w = 0; inside && w < nodes_.words(); ++w) {
+        nodes_.row(j, k)[w] = NodeBits::range(w, nodes_.first()[0], nodes_.last()[0]);
+      }
+      set_ends(j, k);
+      return;
+    }
+    const std::int64_t from_j = cell_j - field_.block.offset[1] + 1;
+    const std::int64_t from_k = cell_k - field_.block.offset[2] + 1;
+    if (is_own(1, from_j) && is_own(2, from_k)) {
+      std::copy_n(nodes_.row(from_j, from_k), nodes_.words(), nodes_.row(j, k));
+      return;
+    }
+    for (std::int64_t i = nodes_.first()[0]; i <= nodes_.last()[0]; ++i) {
+      set_node({i, j, k});
+    }
+  }
+
+  const BlockField& field_;
+  NodeBits& nodes_;
+};
+
+}  // namespace
+
+NodeBits classify(const BlockField& field, double overshoot_bound, double weight, Phases& phases,
+                  Report& report) {
+  Index3 first;
+  Index3 last;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const bool at_low_side =
+        field.block.offset[axis] == 0 && field.sides[2 * axis] != Side::periodic;
+    first[axis] = at_low_side ? 0 : 1;
+    last[axis] = field.block.dims[axis] + 1;
+  }
+  NodeBits nodes(first, last);
+  const Index3& dims = field.view.dims;
+  const std::int64_t rows = dims[1] * dims[2];
+  const std::int64_t grain = std::max<std::int64_t>(1, (1 << 16) / dims[0]);
+  std::vector<Statistics> portions(static_cast<std::size_t>((rows + grain - 1) / grain));
+  with_scalar(field.view.type, [&](auto type) {
+    using T = decltype(type);
+    const RowClassifier<T> classifier(field.purity_tolerance, overshoot_bound);
+    phases.run(weight, rows, grain, [&](std::int64_t begin, std::int64_t end) {
+      Statistics& statistics = portions[static_cast<std::size_t>(begin / grain)];
+      for (std::int64_t row = begin; row < end; ++row) {
+        const Index3 start{0, row % dims[1], row / dims[1]};
+        const auto in_block = [&](std::size_t axis) {
+          const std::int64_t index = start[axis] - field.block.ghost_low[axis];
+          return index >= 0 && index < field.block.dims[axis];
+        };
+        classify_row<T>(field, classifier, start, in_block(1) && in_block(2) ? &nodes : nullptr,
+                        statistics);
+      }
+    });
+  });
+  Statistics all;
+  for (const Statistics& portion : portions) {
+    all.add(portion);
+  }
+  if (all.first_bad >= 0) {
+    throw_bad_cell(field, all.first_bad, overshoot_bound);
+  }
+  BeyondFiller(field, nodes).fill();
+  report.cells = field.block.dims[0] * field.block.dims[1] * field.block.dims[2];
+  report.interfacial_cells = all.interfacial;
+  report.clamped_cells = all.clamped;
+  report.largest_overshoot = all.overshoot;
+  report.fraction_volume = all.sum * field.grid.cell_volume();
+  return nodes;
+}
+
+}  // namespace difmesh::detail

@@ -1,0 +1,125 @@
+#pragma once
+// One bit per node of the dual grid of a block, and the crossed dual edges that follow from them.
+//
+// Local node indices run from 0 to dims + 1 on each axis; local index = global cell index - offset
+// + 1. Index 0 is the node before the block: it exists where the block begins at a side of the
+// domain that is not periodic. Index dims + 1 always exists: the node beyond or on the domain face,
+// or the first cell after the block, or the periodic image of cell 0.
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "difmesh/grid.hpp"
+
+namespace difmesh::detail {
+
+/// Number of set bits, without the call that std::popcount is on the baseline instruction set.
+[[nodiscard]] inline int count_bits(std::uint64_t word) {
+#ifdef __POPCNT__
+  return std::popcount(word);
+#else
+  word -= (word >> 1) & 0x5555555555555555u;
+  word = (word & 0x3333333333333333u) + ((word >> 2) & 0x3333333333333333u);
+  word = (word + (word >> 4)) & 0x0f0f0f0f0f0f0f0fu;
+  return static_cast<int>((word * 0x0101010101010101u) >> 56);
+#endif
+}
+
+/// Bits [0, bit) of a word; bit in 0..63.
+[[nodiscard]] constexpr std::uint64_t below(int bit) {
+  return (std::uint64_t{1} << bit) - 1;
+}
+
+/// Rows of bits along x over a box of nodes.
+class NodeBits {
+ public:
+  NodeBits() = default;
+  /// \param first lowest existing local index on each axis, 0 or 1; \param last the highest
+  NodeBits(const Index3& first, const Index3& last)
+      : first_(first), last_(last), words_((last[0] + 64) / 64) {
+    bits_.assign(static_cast<std::size_t>(words_ * rows()), 0);
+  }
+
+  [[nodiscard]] const Index3& first() const { return first_; }
+  [[nodiscard]] const Index3& last() const { return last_; }
+  [[nodiscard]] std::int64_t words() const { return words_; }
+  [[nodiscard]] std::int64_t rows() const { return (last_[1] + 1) * (last_[2] + 1); }
+  [[nodiscard]] std::int64_t row_index(std::int64_t j, std::int64_t k) const {
+    return k * (last_[1] + 1) + j;
+  }
+  [[nodiscard]] std::uint64_t* row(std::int64_t j, std::int64_t k) {
+    return bits_.data() + row_index(j, k) * words_;
+  }
+  [[nodiscard]] const std::uint64_t* row(std::int64_t j, std::int64_t k) const {
+    return bits_.data() + row_index(j, k) * words_;
+  }
+  [[nodiscard]] bool test(const Index3& node) const {
+    return (row(node[1], node[2])[node[0] / 64] >> (node[0] % 64) & 1) != 0;
+  }
+  void set(const Index3& node, bool value) {
+    const std::uint64_t bit = std::uint64_t{1} << (node[0] % 64);
+    std::uint64_t& word = row(node[1], node[2])[node[0] / 64];
+    word = value ? word | bit : word & ~bit;
+  }
+  /// Bits of word w whose local index is in [from, to].
+  [[nodiscard]] static std::uint64_t range(std::int64_t w, std::int64_t from, std::int64_t to) {
+    const std::int64_t low = from - 64 * w;
+    const std::int64_t high = to - 64 * w;
+    if (low > 63 || high < 0) {
+      return 0;
+    }
+    const std::uint64_t up = high >= 63 ? ~std::uint64_t{0} : below(static_cast<int>(high) + 1);
+    return low <= 0 ? up : up & ~below(static_cast<int>(low));
+  }
+
+ private:
+  Index3 first_{0, 0, 0};
+  Index3 last_{-1, -1, -1};
+  std::int64_t words_ = 0;
+  std::vector<std::uint64_t> bits_;
+};
+
+/// Crossed dual edges that start at the nodes of one word, by axis.
+struct EdgeWord {
+  std::uint64_t x = 0;
+  std::uint64_t y = 0;
+  std::uint64_t z = 0;
+
+  [[nodiscard]] std::uint64_t any() const { return x | y | z; }
+  [[nodiscard]] int count() const { return count_bits(x) + count_bits(y) + count_bits(z); }
+  /// Crossed edges that start at nodes below the bit.
+  [[nodiscard]] int count_below(int bit) const {
+    const std::uint64_t mask = below(bit);
+    return count_bits(x & mask) + count_bits(y & mask) + count_bits(z & mask);
+  }
+};
+
+/// The crossed dual edges that start at the nodes of one row.
+class EdgeRow {
+ public:
+  EdgeRow(const NodeBits& nodes, std::int64_t j, std::int64_t k)
+      : nodes_(&nodes),
+        here_(nodes.row(j, k)),
+        next_j_(j < nodes.last()[1] ? nodes.row(j + 1, k) : here_),
+        next_k_(k < nodes.last()[2] ? nodes.row(j, k + 1) : here_) {}
+
+  [[nodiscard]] EdgeWord word(std::int64_t w) const {
+    const std::uint64_t bits = here_[w];
+    const std::uint64_t carry = w + 1 < nodes_->words() ? here_[w + 1] << 63 : 0;
+    const std::int64_t first = nodes_->first()[0];
+    const std::int64_t last = nodes_->last()[0];
+    const std::uint64_t valid = NodeBits::range(w, first, last);
+    return {(bits ^ (bits >> 1 | carry)) & valid & NodeBits::range(w, first, last - 1),
+            (bits ^ next_j_[w]) & valid, (bits ^ next_k_[w]) & valid};
+  }
+
+ private:
+  const NodeBits* nodes_;
+  const std::uint64_t* here_;
+  const std::uint64_t* next_j_;
+  const std::uint64_t* next_k_;
+};
+
+}  // namespace difmesh::detail

@@ -1,0 +1,49 @@
+#pragma once
+// Normals of interfacial cells from their neighbourhood.
+
+#include "block_field.hpp"
+#include "difmesh/normals.hpp"
+
+namespace difmesh::detail {
+
+/// A normal in the unit cell: m_i = n_i spacing_i, out of the material, scaled to |m|₁ = 1; all
+/// zero where the neighbourhood has no gradient.
+struct UnitNormal {
+  Vec3 m{0.0, 0.0, 0.0};
+  NormalSource source = NormalSource::none;
+};
+
+/// Estimates normals of cells of one field. Thread safety: const calls are safe.
+template <class T>
+class NormalStencil {
+ public:
+  NormalStencil(const BlockField& field, Normals normals);
+
+  /// \pre the cell and, as far as the domain reaches, its stencil are in memory
+  [[nodiscard]] UnitNormal operator()(const Index3& cell) const;
+
+ private:
+  // Fractions of 3x3x3 cells, [z][y][x]. Missing layers are continued linearly, which makes every
+  // centred difference across them one-sided; `present` is 0 for them, for sums.
+  struct Neighbourhood {
+    double c[3][3][3];
+    double present[3][3];  // [axis][offset]
+  };
+
+  void gather(const Index3& cell, Neighbourhood& hood) const;
+  void gather_at_side(const Index3& cell, Neighbourhood& hood) const;
+  [[nodiscard]] static Vec3 youngs(const Neighbourhood& hood);
+  [[nodiscard]] static UnitNormal mixed(const Neighbourhood& hood, const Vec3& gradient);
+  [[nodiscard]] bool add_heights(const Index3& cell, std::size_t axis, double sense,
+                                 Vec3& sum) const;
+  [[nodiscard]] bool column(const Index3& foot, std::size_t axis, double sense,
+                            double& height) const;
+
+  const BlockField& field_;
+  Normals normals_;
+  const T* data_;
+  double empty_;
+  double full_;
+};
+
+}  // namespace difmesh::detail

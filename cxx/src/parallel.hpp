@@ -1,0 +1,108 @@
+#pragma once
+// Loops over index ranges on a chosen number of threads, and the progress and cancelling that goes
+// with them. The only place that knows oneTBB; without it the same loops run serially.
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+#include "difmesh/error.hpp"
+#include "difmesh/options.hpp"
+
+#ifdef DIFMESH_WITH_TBB
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#endif
+
+namespace difmesh::detail {
+
+/// A fixed number of threads. Loops hand out fixed portions of `grain` indices, so that what a
+/// portion computes never depends on how many threads there are.
+class Workers {
+ public:
+  /// \param threads 0: as many as the machine has
+  explicit Workers(int threads)
+#ifdef DIFMESH_WITH_TBB
+      : arena_(threads > 0 ? threads : tbb::task_arena::automatic),
+        serial_(threads == 1)
+#endif
+  {
+    if (threads < 0) {
+      throw Error(ErrorCode::invalid_argument,
+                  "threads must not be negative, got " + std::to_string(threads));
+    }
+  }
+
+  /// body(begin, end) for portions that tile [0, count); portion p starts at p * grain.
+  template <class Body>
+  void for_portions(std::int64_t count, std::int64_t grain, const Body& body) {
+    const std::int64_t portions = (count + grain - 1) / grain;
+    const auto run = [&](std::int64_t portion) {
+      body(portion * grain, std::min(count, (portion + 1) * grain));
+    };
+#ifdef DIFMESH_WITH_TBB
+    if (!serial_ && portions > 1) {
+      arena_.execute([&] { tbb::parallel_for(std::int64_t{0}, portions, run); });
+      return;
+    }
+#endif
+    for (std::int64_t portion = 0; portion < portions; ++portion) {
+      run(portion);
+    }
+  }
+
+#ifdef DIFMESH_WITH_TBB
+
+ private:
+  tbb::task_arena arena_;
+  bool serial_;
+#endif
+};
+
+/// Runs phases of known weight, and reports between slices of each on the calling thread.
+class Phases {
+ public:
+  Phases(Workers& workers, const Progress& progress) : workers_(workers), progress_(progress) {}
+
+  /// As Workers::for_portions, as the next `weight` of the whole (all weights sum to 1).
+  template <class Body>
+  void run(double weight, std::int64_t count, std::int64_t grain, const Body& body) {
+    if (!progress_) {
+      workers_.for_portions(count, grain, body);
+      return;
+    }
+    const std::int64_t portions = (count + grain - 1) / grain;
+    const std::int64_t slices = std::clamp<std::int64_t>(portions, 1, kSlices);
+    for (std::int64_t slice = 0; slice < slices; ++slice) {
+      const std::int64_t first = portions * slice / slices * grain;
+      const std::int64_t last = std::min(count, portions * (slice + 1) / slices * grain);
+      workers_.for_portions(last - first, grain, [&](std::int64_t begin, std::int64_t end) {
+        body(first + begin, first + end);
+      });
+      report(done_ + weight * static_cast<double>(slice + 1) / static_cast<double>(slices));
+    }
+    done_ += weight;
+  }
+
+  /// Reports completion.
+  void finish() {
+    if (progress_) {
+      report(1.0);
+    }
+  }
+
+ private:
+  static constexpr std::int64_t kSlices = 32;
+
+  void report(double share) {
+    if (!progress_(std::min(share, 1.0))) {
+      throw Error(ErrorCode::cancelled, "cancelled by the progress callback");
+    }
+  }
+
+  Workers& workers_;
+  const Progress& progress_;
+  double done_ = 0.0;
+};
+
+}  // namespace difmesh::detail

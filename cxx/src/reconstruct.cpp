@@ -1,0 +1,101 @@
+#include "difmesh/reconstruct.hpp"
+
+#include <chrono>
+#include <limits>
+#include <string>
+
+#include "block_field.hpp"
+#include "classify.hpp"
+#include "difmesh/error.hpp"
+#include "dual_grid.hpp"
+#include "parallel.hpp"
+#include "plane_table.hpp"
+#include "triangles.hpp"
+#include "vertices.hpp"
+
+namespace difmesh {
+namespace {
+
+using detail::BlockField;
+using detail::DualGrid;
+using detail::Phases;
+
+/// Wall time since the last lap.
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = Clock::now();
+    const double seconds = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    return seconds;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last_ = Clock::now();
+};
+
+Vec3 middle_of(const BlockField& field) {
+  Vec3 middle;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    middle[axis] = field.grid.origin[axis] +
+                   field.grid.spacing[axis] * (static_cast<double>(field.block.offset[axis]) +
+                                               0.5 * static_cast<double>(field.block.dims[axis]));
+  }
+  return middle;
+}
+
+Reconstruction run(const BlockField& field, const Options& options) {
+  Reconstruction result;
+  Report& report = result.report;
+  Mesh& mesh = result.mesh;
+  Stopwatch whole;
+  Stopwatch watch;
+  detail::Workers workers(options.threads);
+  Phases phases(workers, options.progress);
+
+  DualGrid grid(field, detail::classify(field, options.overshoot_bound, 0.1, phases, report));
+  report.seconds.classify = watch.lap();
+
+  const bool with_planes = options.placement == Placement::plic;
+  if (with_planes || options.vertex_normals) {
+    grid.set_planes(detail::make_planes(field, grid.nodes(), options, phases, report), with_planes);
+  }
+  report.seconds.normals = watch.lap();
+
+  const auto vertex_start = detail::count_vertices(grid.nodes(), phases);
+  if (vertex_start.back() > std::numeric_limits<std::uint32_t>::max()) {
+    throw Error(ErrorCode::too_large, "the mesh would have " + std::to_string(vertex_start.back()) +
+                                          " vertices, more than 2^32 - 1; reconstruct blocks");
+  }
+  const auto triangle_start = detail::count_triangles(grid, vertex_start, phases);
+  report.seconds.count = watch.lap();
+
+  detail::place_vertices(grid, options, vertex_start, phases, mesh, report);
+  report.seconds.vertices = watch.lap();
+
+  detail::connect(grid, vertex_start, triangle_start, phases, mesh);
+  if (report.closed) {
+    report.enclosed_volume = detail::enclosed_volume(mesh, middle_of(field), phases);
+  }
+  report.seconds.triangles = watch.lap();
+  report.seconds.total = whole.lap();
+  phases.finish();
+  return result;
+}
+
+}  // namespace
+
+Reconstruction reconstruct(const FieldView& field, const Grid& grid, const Options& options) {
+  const Block whole{{0, 0, 0}, grid.dims, {0, 0, 0}, {0, 0, 0}};
+  return run(detail::make_block_field(field, whole, grid, options), options);
+}
+
+Reconstruction reconstruct_block(const FieldView& field, const Block& block, const Grid& grid,
+                                 const Options& options) {
+  Options named = options;
+  named.edge_ids = true;
+  return run(detail::make_block_field(field, block, grid, named), named);
+}
+
+}  // namespace difmesh

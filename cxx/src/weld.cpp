@@ -1,0 +1,128 @@
+#include "difmesh/weld.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "difmesh/error.hpp"
+
+namespace difmesh {
+namespace {
+
+[[noreturn]] void fail(std::size_t mesh, const std::string& what) {
+  throw Error(ErrorCode::invalid_argument, "weld: mesh " + std::to_string(mesh) + " " + what);
+}
+
+struct IdRange {
+  std::uint64_t row;    // ids from one row of nodes to the next
+  std::uint64_t layer;  // and from one layer to the next
+  std::uint64_t end;
+};
+
+IdRange id_range(const Grid& grid) {
+  const auto nodes = [](std::int64_t dim) { return static_cast<std::uint64_t>(dim) + 2; };
+  const std::uint64_t row = 3 * nodes(grid.dims[0]);
+  const std::uint64_t layer = row * nodes(grid.dims[1]);
+  return {row, layer, layer * nodes(grid.dims[2])};
+}
+
+void check(std::span<const Mesh> meshes, const IdRange& ids) {
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    const Mesh& mesh = meshes[m];
+    if (mesh.edge_ids.size() != mesh.positions.size()) {
+      fail(m, "has no edge_ids");
+    }
+    if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) {
+      fail(m, "has normals for some vertices only");
+    }
+    if (!mesh.positions.empty() && mesh.normals.empty() != meshes[0].normals.empty() &&
+        !meshes[0].positions.empty()) {
+      fail(m, "differs from mesh 0 in having normals or not");
+    }
+    for (const std::uint64_t id : mesh.edge_ids) {
+      if (id >= ids.end) {
+        fail(m, "has an edge id outside the grid: " + std::to_string(id));
+      }
+    }
+    for (const Triangle& triangle : mesh.triangles) {
+      if (*std::max_element(triangle.begin(), triangle.end()) >= mesh.positions.size()) {
+        fail(m, "has a triangle with an index out of range");
+      }
+    }
+  }
+}
+
+// The lower node of the dual cell that a triangle lies in: the low corner of the box around its
+// edges. No triangle is flat on a face of its cell, so the box is the cell.
+std::uint64_t cell_of(const std::array<std::uint64_t, 3>& ids, const IdRange& range) {
+  std::uint64_t i = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t j = i;
+  std::uint64_t k = i;
+  for (const std::uint64_t id : ids) {
+    i = std::min(i, id % range.row / 3);
+    j = std::min(j, id % range.layer / range.row);
+    k = std::min(k, id / range.layer);
+  }
+  return k * range.layer + j * range.row + 3 * i;
+}
+
+struct PlacedTriangle {
+  std::uint64_t cell;
+  Triangle corners;
+};
+
+}  // namespace
+
+Mesh weld(std::span<const Mesh> meshes, const Grid& grid) {
+  validate(grid);
+  const IdRange range = id_range(grid);
+  check(meshes, range);
+
+  Mesh result;
+  for (const Mesh& mesh : meshes) {
+    result.edge_ids.insert(result.edge_ids.end(), mesh.edge_ids.begin(), mesh.edge_ids.end());
+  }
+  std::sort(result.edge_ids.begin(), result.edge_ids.end());
+  result.edge_ids.erase(std::unique(result.edge_ids.begin(), result.edge_ids.end()),
+                        result.edge_ids.end());
+  if (result.edge_ids.size() > std::numeric_limits<std::uint32_t>::max()) {
+    throw Error(ErrorCode::too_large, "weld: the mesh would have " +
+                                          std::to_string(result.edge_ids.size()) +
+                                          " vertices, more than 2^32 - 1");
+  }
+
+  result.positions.resize(result.edge_ids.size());
+  std::vector<PlacedTriangle> triangles;
+  std::vector<std::uint32_t> number;
+  for (const Mesh& mesh : meshes) {
+    if (!mesh.normals.empty()) {
+      result.normals.resize(result.edge_ids.size());
+    }
+    number.resize(mesh.positions.size());
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+      const auto place =
+          std::lower_bound(result.edge_ids.begin(), result.edge_ids.end(), mesh.edge_ids[v]);
+      const auto n = static_cast<std::size_t>(place - result.edge_ids.begin());
+      number[v] = static_cast<std::uint32_t>(n);
+      result.positions[n] = mesh.positions[v];
+      if (!mesh.normals.empty()) {
+        result.normals[n] = mesh.normals[v];
+      }
+    }
+    for (const Triangle& t : mesh.triangles) {
+      const std::array<std::uint64_t, 3> ids{mesh.edge_ids[t[0]], mesh.edge_ids[t[1]],
+                                             mesh.edge_ids[t[2]]};
+      triangles.push_back({cell_of(ids, range), {number[t[0]], number[t[1]], number[t[2]]}});
+    }
+  }
+  std::stable_sort(
+      triangles.begin(), triangles.end(),
+      [](const PlacedTriangle& a, const PlacedTriangle& b) { return a.cell < b.cell; });
+  result.triangles.resize(triangles.size());
+  std::transform(triangles.begin(), triangles.end(), result.triangles.begin(),
+                 [](const PlacedTriangle& t) { return t.corners; });
+  return result;
+}
+
+}  // namespace difmesh

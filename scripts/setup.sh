@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# Installs what difmesh needs on Debian 12: compilers, libraries, tools. Run by demo.sh and test.sh; does
+# nothing where all is there. Needs root or sudo.
+#   setup.sh            build, tests and demo
+#   setup.sh --bench    the benchmarks as well (Google Benchmark, VTK)
+set -euo pipefail
+
+packages=(
+  g++ cmake ninja-build           # to build
+  libtbb-dev                      # the core's threads
+  zlib1g-dev libopenmesh-dev      # readers and writers of files
+  libcli11-dev nlohmann-json3-dev # the program
+  doctest-dev                     # tests
+  libcgal-dev                     # tests: independent checks of meshes
+  clang-format git                # tests: formatting
+)
+if [ "${1:-}" = "--bench" ]; then
+  packages+=(libbenchmark-dev libvtk9-dev)
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  if ! dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed'; then
+    missing+=("$package")
+  fi
+done
+if [ ${#missing[@]} -eq 0 ]; then
+  echo "setup: all ${#packages[@]} packages are installed"
+  exit 0
+fi
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  if ! command -v sudo >/dev/null; then
+    echo "setup: needs root or sudo to install: ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+echo "setup: installing ${missing[*]}"
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+  apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+echo "setup: done"
