@@ -10,6 +10,7 @@
 #include "difmesh/options.hpp"
 
 #ifdef DIFMESH_WITH_TBB
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #endif
@@ -23,7 +24,9 @@ class Workers {
   /// \param threads 0: as many as the machine has
   explicit Workers(int threads)
 #ifdef DIFMESH_WITH_TBB
-      : arena_(threads > 0 ? threads : tbb::task_arena::automatic),
+      // Asked for more threads than there are, oneTBB would print a warning.
+      : arena_(threads > 0 ? std::min(threads, tbb::info::default_concurrency())
+                           : tbb::task_arena::automatic),
         serial_(threads == 1)
 #endif
   {

@@ -9,7 +9,7 @@
 
 namespace difmesh {
 
-/// Element types of a field. Integers stand for value / (largest value): 0..255 or 0..65535 ->
+/// Element types of a field. Integers stand for value / (largest value): 0..255 or 0..65535 become
 /// 0..1.
 enum class ScalarType : std::uint8_t { float32, float64, uint8, uint16 };
 

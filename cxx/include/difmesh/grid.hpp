@@ -26,8 +26,7 @@ struct Grid {
 };
 
 /// Checks a grid before anything is allocated from it.
-/// \throw Error invalid_grid if a dim is < 1, a length is not finite or not > 0, or the spacing is
-/// so
+/// \throw Error invalid_grid if a dim is < 1, a length is not finite or not > 0, or the spacing is so
 ///   small against the origin that neighbouring nodes would coincide in float64 (< 2^-40 relative);
 ///   too_large if three ids per node of the grid would overflow 63 bits.
 void validate(const Grid& grid);

@@ -44,7 +44,7 @@ struct Mesh {
   Array<Triangle> triangles;  ///< three indices into positions each
   Array<Vec3> normals;        ///< empty, or one unit vector per vertex, out of the material
   /// Empty, or one per vertex: the name of its dual edge, strictly ascending over the vertices.
-  /// id = 3 ((k+1)(ny+2) + (j+1))(nx+2) + (i+1)) + axis, where (i,j,k) is the edge's lower dual
+  /// id = 3 (((k+1)(ny+2) + (j+1))(nx+2) + (i+1)) + axis, where (i,j,k) is the edge's lower dual
   /// node in the indices of the whole grid (-1 and n are the nodes beyond or on the domain faces).
   Array<std::uint64_t> edge_ids;
 };

@@ -31,7 +31,7 @@ struct CellPlane {
 ///   differ. Values outside [0,1] are clamped; the field is not validated beyond the cells read,
 ///   whose NaN count as 0.
 /// Cost: some 0.1-0.3 µs per cell. Thread safety: concurrent calls are safe.
-/// Source: MYC: Aulisa et al., J. Comput. Phys. 225 (2007) 2301; heights: method page, section 4.
+/// Source: MYC: Aulisa et al., J. Comput. Phys. 225 (2007) 2301; heights: docs/method.md.
 void cell_planes(const FieldView& field, const Grid& grid, std::span<const Index3> cells,
                  const Options& options, std::span<CellPlane> planes);
 

@@ -38,8 +38,8 @@ using Sides = std::array<Side, 6>;
 
 /// Called between portions of the work, always on the thread that called the library, with the
 /// share of the work done in [0,1], never decreasing. Return false to cancel: the call then throws
-/// Error with code cancelled. At least 20 calls are made, spread over the phases; none lies further
-/// from the next than about a tenth of the run. May throw; the exception passes through.
+/// Error with code cancelled. Calls come at least every tenth of the work or so, but for grids of a few
+/// rows, whose work is not worth dividing. May throw; the exception passes through.
 using Progress = std::function<bool(double share_done)>;
 
 struct Options {
@@ -48,8 +48,8 @@ struct Options {
   Sides sides{Side::open, Side::open, Side::open, Side::open, Side::open, Side::open};
   /// γ <= this counts as empty, γ >= 1 - this as full, wherever that has to be decided; [0, 0.1].
   double purity_tolerance = 1e-6;
-  /// Values in [-bound, 1 + bound] are clamped to [0,1] and counted; beyond it the call fails; [0,
-  /// 1].
+  /// Values in [-bound, 1 + bound] are clamped to [0,1] and counted; beyond it the call fails. In
+  /// [0, 1].
   double overshoot_bound = 0.1;
   /// Vertices stay at least this share of the edge's length away from its ends; [1e-13, 0.25].
   /// Larger values give fatter triangles where many fractions are exactly 1/2, and larger errors
@@ -57,7 +57,7 @@ struct Options {
   double clearance = 1e-12;
   bool vertex_normals = false;  ///< fill Mesh::normals
   bool edge_ids = false;        ///< fill Mesh::edge_ids
-  int threads = 0;              ///< 0: as many as the machine has; the result does not depend on it
+  int threads = 0;              ///< at most this many, 0: as the machine has; changes no bit
   Progress progress;            ///< may be empty
 };
 

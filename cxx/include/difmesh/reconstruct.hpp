@@ -62,17 +62,16 @@ struct Block {
 /// on each crossed dual edge is put where options.placement says. The result is edge- and
 /// vertex-manifold and free of self-intersections for every input, and bit-identical for any number
 /// of threads.
-/// - `open` sides: the dual grid has more nodes on the domain faces, edges and corners, and the
-/// mesh ends
-///   there. With `plic` it follows the planes of the last cells.
+/// - `open` sides: the dual grid has more nodes on the domain faces, edges and corners, and the mesh
+///   ends there. With `plic` it follows the planes of the last cells.
 /// - `periodic` axes: the mesh spans one period, from the first cell centre to its image; boundary
 ///   loops are equal but for one period, added to the coordinate.
 /// \param field cells in memory; dims must equal grid.dims
 /// \throw Error invalid_argument (field or options), invalid_grid, invalid_value (first bad cell in
 ///   the order z, y, x is named), too_large, cancelled
 /// Cost: one pass over the field, then O(interfacial cells). Memory beyond the output: two bits per
-/// cell and O(interfacial cells). Thread safety: concurrent calls are safe. Source: E19 with
-/// corrections; docs/method.md.
+/// cell and O(interfacial cells). Thread safety: concurrent calls are safe.
+/// Source: E19, as docs/method.md lays out.
 [[nodiscard]] Reconstruction reconstruct(const FieldView& field, const Grid& grid,
                                          const Options& options = {});
 

@@ -12,9 +12,10 @@ namespace difmesh {
 /// Joins meshes from reconstruct_block() over disjoint blocks of one grid. Vertices are identified
 /// by edge id, never by distance. Vertices come in the order of their ids and triangles in the
 /// order of their dual cells, so blocks that cover the grid give the mesh of the whole field, bit
-/// for bit. \param grid the whole grid \throw Error invalid_argument if a mesh has vertices without
-/// edge_ids, an id is outside the grid, or
-///   only some meshes have normals; too_large beyond 2^32 - 1 vertices.
+/// for bit.
+/// \param grid the whole grid
+/// \throw Error invalid_argument if a mesh has vertices without edge_ids, an id is outside the grid,
+///   or only some meshes have normals; too_large beyond 2^32 - 1 vertices.
 /// Cost: O(n log n) in the size of the meshes. Thread safety: pure function.
 [[nodiscard]] Mesh weld(std::span<const Mesh> meshes, const Grid& grid);
 
