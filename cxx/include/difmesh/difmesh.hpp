@@ -4,7 +4,9 @@
 
 #include "difmesh/error.hpp"
 #include "difmesh/field_view.hpp"
+#include "difmesh/fractions_from_mesh.hpp"
 #include "difmesh/grid.hpp"
+#include "difmesh/measure.hpp"
 #include "difmesh/mesh.hpp"
 #include "difmesh/normals.hpp"
 #include "difmesh/options.hpp"

@@ -1,0 +1,83 @@
+#pragma once
+/// \file fractions_from_mesh.hpp
+/// The way back: exact volume fractions of the inside of a closed triangle mesh.
+
+#include <cstdint>
+#include <span>
+
+#include "difmesh/grid.hpp"
+#include "difmesh/mesh.hpp"
+#include "difmesh/options.hpp"
+
+namespace difmesh {
+
+struct FractionsFromMeshOptions {
+  /// The triangles are clockwise seen from outside: treat the mesh as turned inside out.
+  bool flip = false;
+  /// Demand that every edge is run along as often one way as the other. Edges match by the
+  /// positions of their ends, so triangles need not share vertices. Off: a mesh with T-junctions or
+  /// tiny cracks passes too, and only the columns' sums show whether it is closed; they cannot show
+  /// a hole that is seen edge-on along x.
+  bool check_edges = true;
+  /// A column's sum may miss an integer, and a fraction lie outside [0,1], by this before the call
+  /// fails; [1e-12, 0.25]. What is within is rounded or clamped. Raise it for a mesh that is
+  /// slightly cracked or cuts itself.
+  double tolerance = 1e-9;
+  int threads = 0;    ///< 0: as many as the machine has; the result does not depend on it
+  Progress progress;  ///< may be empty; see options.hpp
+};
+
+/// Facts about one call.
+struct FractionsFromMeshReport {
+  std::int64_t pieces = 0;         ///< parts of triangles inside cells, counted cell by cell
+  std::int64_t cells_touched = 0;  ///< cells that hold a piece; all others are exactly 0 or 1
+  double lowest_raw = 0.0;         ///< least fraction before clamping; 0 if none was below
+  double highest_raw = 1.0;        ///< greatest fraction before clamping; 1 if none was above
+  double largest_gap = 0.0;        ///< largest distance of a column's sum from its integer
+  double fraction_volume = 0.0;    ///< Σγ|K| over the cells, in the unit of the grid
+  double mesh_volume = 0.0;        ///< volume inside the whole mesh, within the grid or not
+  struct Seconds {                 ///< wall time by phase
+    double check = 0.0;            ///< vertices, indices, edges, volume
+    double bin = 0.0;              ///< triangles to rows of cells
+    double clip = 0.0;             ///< clipping, sums, writing of the field
+    double total = 0.0;
+  } seconds;
+};
+
+struct FractionsFromMesh {
+  Array<double> fractions;  ///< one per cell of the grid, in [0,1], x fastest
+  FractionsFromMeshReport report;
+};
+
+/// Volume fractions γ = |K ∩ Ω| / |K| of all cells K of a grid, Ω being the inside of a closed mesh
+/// whose triangles are counter-clockwise seen from outside, as those of reconstruct() are.
+///
+/// No sampling and no inside test: each triangle is clipped to the cells it meets. A piece in a
+/// cell adds the volume beyond itself to the cell, and its area projected along x to all cells
+/// beyond it, by one running sum per column (divergence theorem; method page, section 9).
+/// - Several components and hollow ones are fine. Components must not overlap: Ω would count twice.
+/// - The grid cuts off what lies outside it. A mesh that surrounds the grid gives 1 everywhere, one
+///   beside it 0.
+/// - Triangles, edges and vertices may lie exactly on faces of cells.
+/// - Accuracy: γ is that of a closed surface within 2^-50 n spacings of the mesh, where n is its
+///   largest coordinate in spacings from the grid's origin (2e-13 for n = 256), and usually much
+///   closer. Fractions within 2^-51 max(dims) of 0 or 1 become 0 or 1; cells without a piece are
+///   exactly 0 or 1.
+/// - The fractions have the same bits for any number of threads and any order of the triangles.
+///
+/// \param positions finite, less than 2^32 spacings away from the grid's origin
+/// \throw Error invalid_grid; too_large for 2^32 vertices or triangles; cancelled; invalid_argument
+///   for options out of range, an empty mesh, a vertex not finite or too far away, an index out of
+///   range, an open mesh (an edge and its triangle are named, or without check_edges the column and
+///   its gap), mixed orientation (two triangles are named), a mesh that is inside out (see `flip`),
+///   or parts that overlap or are inside out (a cell is named).
+/// Cost: O(pieces + cells), 30 to 60 ns per piece and up to 3 ns per cell on one core. Memory
+/// beyond the field: 32 bytes per vertex, 4 per triangle and layer of cells that it meets, and 0.5
+/// MB per thread (more where rows have over 32,000 cells). Thread safety: concurrent calls are
+/// safe.
+[[nodiscard]] FractionsFromMesh fractions_from_mesh(const Grid& grid,
+                                                    std::span<const Vec3> positions,
+                                                    std::span<const Triangle> triangles,
+                                                    const FractionsFromMeshOptions& options = {});
+
+}  // namespace difmesh

@@ -1,0 +1,32 @@
+#pragma once
+// A triangle mesh in the units of a grid, checked.
+
+#include <span>
+
+#include "difmesh/grid.hpp"
+#include "difmesh/mesh.hpp"
+#include "parallel.hpp"
+
+namespace difmesh::detail {
+
+struct GridMesh {
+  Array<Vec3> corners;  ///< positions in spacings from the grid's origin
+  double volume = 0.0;  ///< inside the whole mesh, in cells
+};
+
+struct MeshRules {
+  bool flip = false;        ///< triangles are clockwise seen from outside
+  bool check_edges = true;  ///< demand that edges match
+};
+
+/// Share of the progress that checked_mesh() takes.
+inline constexpr double kCheckWeight = 0.12;
+
+/// Checks that a mesh is finite, within 2^32 spacings of the grid's origin, has its indices in
+/// range, is closed and right way out, and moves it to grid units. \throw Error invalid_argument,
+/// naming the vertex, the triangle or the edge. \pre not empty
+[[nodiscard]] GridMesh checked_mesh(const Grid& grid, std::span<const Vec3> positions,
+                                    std::span<const Triangle> triangles, const MeshRules& rules,
+                                    Phases& phases);
+
+}  // namespace difmesh::detail
