@@ -76,7 +76,12 @@ bool is_uniform(const T* values) {
 template <class T>
 class RowClassifier {
  public:
-  RowClassifier(double tolerance, double bound) : tolerance_(tolerance), bound_(bound) {}
+  RowClassifier(double tolerance, double bound) : tolerance_(tolerance), bound_(bound) {
+    if constexpr (!std::is_integral_v<T>) {
+      low_ = rounded_down(tolerance);
+      high_ = -rounded_down(tolerance - 1.0);
+    }
+  }
 
   // Bits of up to 64 cells; adds their facts to the statistics. `number` is that of the first cell.
   std::uint64_t group(const T* values, std::int64_t stride, std::int64_t count, std::int64_t number,
@@ -104,51 +109,65 @@ class RowClassifier {
   }
 
  private:
+  // Counts have the width of the elements, which lets the compiler count in vectors.
+  using Count = std::conditional_t<sizeof(T) == 8, std::int64_t, std::int32_t>;
+
   void mixed(const T* values, std::int64_t count, std::int64_t number,
              Statistics& statistics) const {
     double lanes[kLanes] = {};
-    std::int64_t interfacial = 0;
-    double lowest = 0.0;
-    double highest = 1.0;
-    std::int64_t outside = 0;
-    bool numbers = true;
-    const double low = tolerance_;
-    const double high = 1.0 - tolerance_;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(kGroup); i += kLanes) {
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        lanes[lane] += fraction_of(values[i + lane]);
+      }
+    }
+    // Cells past the end of the row are zeros, which add nothing to anything.
+    Count interfacial = 0;
+    Count outside = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(kGroup); ++i) {
-      // Cells past the end of the row are zeros, which add nothing to anything.
-      const double fraction = fraction_of(values[i]);
-      lanes[i % kLanes] += fraction;
-      interfacial +=
-          static_cast<std::int64_t>(fraction > low) & static_cast<std::int64_t>(fraction < high);
-      if constexpr (!std::is_integral_v<T>) {
-        const auto value = static_cast<double>(values[i]);
-        numbers = numbers & (value == value);
-        lowest = value < lowest ? value : lowest;
-        highest = value > highest ? value : highest;
-        outside += static_cast<std::int64_t>(value < 0.0) | static_cast<std::int64_t>(value > 1.0);
+      if constexpr (std::is_integral_v<T>) {
+        const double fraction = fraction_of(values[i]);
+        interfacial += (fraction > tolerance_) & (fraction < 1.0 - tolerance_);
+      } else {
+        const T value = values[i];
+        interfacial += (value > low_) & (value < high_);
+        outside += static_cast<Count>(!(value >= T(0))) | static_cast<Count>(!(value <= T(1)));
       }
     }
     statistics.interfacial += interfacial;
-    statistics.clamped += outside;
-    statistics.overshoot = std::max({statistics.overshoot, -lowest, highest - 1.0});
     statistics.sum += ((lanes[0] + lanes[4]) + (lanes[1] + lanes[5])) +
                       ((lanes[2] + lanes[6]) + (lanes[3] + lanes[7]));
-    if (!(numbers && -lowest <= bound_ && highest - 1.0 <= bound_)) {
-      statistics.note_bad(number + first_bad(values, count));
+    if (outside != 0) {
+      look_outside(values, count, number, statistics);
     }
   }
 
-  std::int64_t first_bad(const T* values, std::int64_t count) const {
-    std::int64_t i = 0;
-    while (i + 1 < count && static_cast<double>(values[i]) >= -bound_ &&
-           static_cast<double>(values[i]) - 1.0 <= bound_) {
-      ++i;
+  // Some value is below 0, above 1 or no number.
+  void look_outside(const T* values, std::int64_t count, std::int64_t number,
+                    Statistics& statistics) const {
+    for (std::int64_t i = 0; i < count; ++i) {
+      const auto value = static_cast<double>(values[i]);
+      const double overshoot = std::max(-value, value - 1.0);
+      if (!(overshoot <= bound_)) {
+        statistics.note_bad(number + i);
+        return;
+      }
+      if (overshoot > 0.0) {
+        ++statistics.clamped;
+        statistics.overshoot = std::max(statistics.overshoot, overshoot);
+      }
     }
-    return i;
+  }
+
+  // The largest T up to the limit: for x in T, x > limit exactly where x > rounded_down(limit).
+  static T rounded_down(double limit) {
+    const T rounded = static_cast<T>(limit);
+    return static_cast<double>(rounded) <= limit ? rounded : std::nextafter(rounded, T(-2));
   }
 
   double tolerance_;
   double bound_;
+  T low_{};
+  T high_{};
 };
 
 // Reads one row of cells in memory; j and k are counted in the field view. Rows of the block leave

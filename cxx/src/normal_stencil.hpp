@@ -34,10 +34,13 @@ class NormalStencil {
   void gather_at_side(const Index3& cell, Neighbourhood& hood) const;
   [[nodiscard]] static Vec3 youngs(const Neighbourhood& hood);
   [[nodiscard]] static UnitNormal mixed(const Neighbourhood& hood, const Vec3& gradient);
+  [[nodiscard]] bool is_inside(const Index3& cell, std::size_t axis) const;
   [[nodiscard]] bool add_heights(const Index3& cell, std::size_t axis, double sense,
                                  Vec3& sum) const;
-  [[nodiscard]] bool column(const Index3& foot, std::size_t axis, double sense,
-                            double& height) const;
+  [[nodiscard]] bool column_at_side(const Index3& foot, std::size_t axis, double sense,
+                                    double& height) const;
+  template <class Value>
+  [[nodiscard]] bool is_column(int count, const Value& value, double& height) const;
 
   const BlockField& field_;
   Normals normals_;

@@ -13,7 +13,7 @@ namespace detail {
 namespace {
 
 // Cells on each side of the centre in a column of heights.
-constexpr std::int64_t kReach = 4;
+constexpr int kReach = 4;
 // Below this, in fractions per cell, a gradient is rounding; above 1 - this, a share is a tie. Ties
 // are settled by all that tie, so that no axis is preferred.
 constexpr double kTie = 1e-12;
@@ -70,6 +70,18 @@ UnitNormal NormalStencil<T>::operator()(const Index3& cell) const {
     normal.m = sum;
   }
   return normal;
+}
+
+// True if all nine columns are in memory.
+template <class T>
+bool NormalStencil<T>::is_inside(const Index3& cell, std::size_t axis) const {
+  for (std::size_t t = 0; t < 3; ++t) {
+    const std::int64_t reach = t == axis ? kReach : 1;
+    if (cell[t] - reach < field_.axes[t].low || cell[t] + reach >= field_.axes[t].high) {
+      return false;
+    }
+  }
+  return true;
 }
 
 template <class T>
@@ -214,21 +226,33 @@ bool NormalStencil<T>::add_heights(const Index3& cell, std::size_t axis, double 
   const std::size_t other = (axis + 1) % 3;
   const std::size_t third = (axis + 2) % 3;
   double height[3][3];
-  bool there[2][3];
-  for (int t = 0; t < 3; ++t) {
-    there[0][t] = field_.axes[other].resolve(cell[other] + t - 1) != kMissing;
-    there[1][t] = field_.axes[third].resolve(cell[third] + t - 1) != kMissing;
-  }
-  for (const int u : {1, 0, 2}) {
-    for (const int v : {1, 0, 2}) {
-      if (!there[0][u] || !there[1][v]) {
-        continue;
+  bool there[2][3] = {{true, true, true}, {true, true, true}};
+  if (is_inside(cell, axis)) {
+    const Index3& step = field_.view.strides;
+    const std::int64_t along = sense > 0.0 ? step[axis] : -step[axis];
+    const T* centre = data_ + field_.element(cell) - kReach * along;
+    for (const int u : {1, 0, 2}) {
+      for (const int v : {1, 0, 2}) {
+        const T* end = centre + (u - 1) * step[other] + (v - 1) * step[third];
+        const auto value = [&](int n) { return fraction_of(end[n * along]); };
+        if (!is_column(2 * kReach + 1, value, height[u][v])) {
+          return false;
+        }
       }
-      Index3 foot = cell;
-      foot[other] += u - 1;
-      foot[third] += v - 1;
-      if (!column(foot, axis, sense, height[u][v])) {
-        return false;
+    }
+  } else {
+    for (int t = 0; t < 3; ++t) {
+      there[0][t] = field_.axes[other].resolve(cell[other] + t - 1) != kMissing;
+      there[1][t] = field_.axes[third].resolve(cell[third] + t - 1) != kMissing;
+    }
+    for (const int u : {1, 0, 2}) {
+      for (const int v : {1, 0, 2}) {
+        Index3 foot = cell;
+        foot[other] += u - 1;
+        foot[third] += v - 1;
+        if (there[0][u] && there[1][v] && !column_at_side(foot, axis, sense, height[u][v])) {
+          return false;
+        }
       }
     }
   }
@@ -249,54 +273,43 @@ bool NormalStencil<T>::add_heights(const Index3& cell, std::size_t axis, double 
   return true;
 }
 
-// Sums nine cells, or what the domain has of them. Consistent: full cells, then interfacial ones,
-// then empty ones, seen along the normal, at least one full and one empty.
+// Sums nine cells, or what the domain has of them, from the material's end. Consistent: full cells, then
+// interfacial ones, then empty ones, at least one full and one empty.
 template <class T>
-bool NormalStencil<T>::column(const Index3& foot, std::size_t axis, double sense,
-                              double& height) const {
-  const AxisCells& cells = field_.axes[axis];
-  double fractions[2 * kReach + 1];
-  int count = 0;
-  bool in_memory = foot[axis] - kReach >= cells.low && foot[axis] + kReach < cells.high;
-  for (std::size_t t = 0; t < 3; ++t) {
-    in_memory = in_memory && foot[t] >= field_.axes[t].low && foot[t] < field_.axes[t].high;
-  }
-  if (in_memory) {
-    const std::int64_t step = field_.view.strides[axis];
-    const T* centre = data_ + field_.element(foot);
-    for (std::int64_t offset = -kReach; offset <= kReach; ++offset) {
-      fractions[count++] = fraction_of(centre[offset * step]);
-    }
-  } else {
-    Index3 resolved;
-    for (std::size_t t = 0; t < 3; ++t) {
-      resolved[t] = field_.axes[t].resolve(foot[t]);
-    }
-    for (std::int64_t offset = -kReach; offset <= kReach; ++offset) {
-      resolved[axis] = cells.resolve(foot[axis] + offset);
-      if (resolved[axis] != kMissing) {
-        fractions[count++] = field_.fraction(resolved);
-      }
-    }
-  }
-  const int step = sense > 0.0 ? 1 : -1;
-  const double* first = sense > 0.0 ? fractions : fractions + count - 1;
-  if (first[0] < full_ || first[(count - 1) * step] > empty_) {
-    return false;
-  }
-  int state = 2;  // 2: full so far, 1: interfacial, 0: empty
+template <class Value>
+bool NormalStencil<T>::is_column(int count, const Value& value, double& height) const {
+  unsigned full = 0;
+  unsigned not_empty = 0;
   double sum = 0.0;
   for (int n = 0; n < count; ++n) {
-    const double fraction = first[n * step];
-    const int kind = static_cast<int>(fraction > empty_) + static_cast<int>(fraction >= full_);
-    if (kind > state) {
-      return false;
-    }
-    state = kind;
+    const double fraction = value(n);
+    full |= static_cast<unsigned>(fraction >= full_) << n;
+    not_empty |= static_cast<unsigned>(fraction > empty_) << n;
     sum += fraction;
   }
   height = sum;
-  return true;
+  // Both must run from the first cell on without a gap.
+  return (full & 1U) != 0 && (full & (full + 1U)) == 0 && (not_empty & (not_empty + 1U)) == 0 &&
+         not_empty >> (count - 1) == 0;
+}
+
+template <class T>
+bool NormalStencil<T>::column_at_side(const Index3& foot, std::size_t axis, double sense,
+                                      double& height) const {
+  Index3 resolved;
+  for (std::size_t t = 0; t < 3; ++t) {
+    resolved[t] = field_.axes[t].resolve(foot[t]);
+  }
+  double fractions[2 * kReach + 1];
+  int count = 0;
+  for (std::int64_t offset = -kReach; offset <= kReach; ++offset) {
+    resolved[axis] = field_.axes[axis].resolve(foot[axis] + offset);
+    if (resolved[axis] != kMissing) {
+      fractions[count++] = field_.fraction(resolved);
+    }
+  }
+  return is_column(
+      count, [&](int n) { return fractions[sense > 0.0 ? n : count - 1 - n]; }, height);
 }
 
 template class NormalStencil<float>;

@@ -35,6 +35,7 @@ std::uint64_t edge_ends(const NodeBits& nodes, std::int64_t j, std::int64_t k, s
   return ends;
 }
 
+template <class T>
 class Flagger {
  public:
   Flagger(const BlockField& field, const NodeBits& nodes, bool open_layers)
@@ -57,17 +58,29 @@ class Flagger {
     for (std::int64_t w = 0; w < nodes_.words(); ++w) {
       row[w] = edge_ends(nodes_, j, k, w) & NodeBits::range(w, 1, last_[0]);
     }
-    if (in_layer(1, j) || in_layer(2, k)) {
-      for (std::int64_t i = 1; i <= last_[0]; ++i) {
-        flag_interfacial({i, j, k}, flags);
-      }
+    const bool layer = in_layer(1, j) || in_layer(2, k);
+    if (!layer && !open_[0][0] && !open_[0][1]) {
       return;
     }
-    if (open_[0][0]) {
-      flag_interfacial({1, j, k}, flags);
+    const T* first = static_cast<const T*>(field_.view.data) +
+                     field_.element({field_.axes[0].resolve(field_.block.offset[0]),
+                                     field_.axes[1].resolve(j - 1 + field_.block.offset[1]),
+                                     field_.axes[2].resolve(k - 1 + field_.block.offset[2])});
+    const auto flag_interfacial = [&](std::int64_t i, const T& value) {
+      if (field_.is_interfacial(fraction_of(value))) {
+        row[i / 64] |= std::uint64_t{1} << (i % 64);
+      }
+    };
+    const std::int64_t dims = field_.block.dims[0];
+    const std::int64_t step = layer || dims == 1 ? 1 : dims - 1;
+    for (std::int64_t i = 1; i <= dims; i += step) {
+      if (layer || open_[0][i == 1 ? 0 : 1] || (dims == 1 && open_[0][1])) {
+        flag_interfacial(i, first[(i - 1) * field_.view.strides[0]]);
+      }
     }
-    if (open_[0][1]) {
-      flag_interfacial({field_.block.dims[0], j, k}, flags);
+    if (layer && last_[0] > dims) {
+      const std::int64_t beyond = field_.axes[0].resolve(dims + field_.block.offset[0]);
+      flag_interfacial(last_[0], first[(beyond - field_.block.offset[0]) * field_.view.strides[0]]);
     }
   }
 
@@ -75,16 +88,6 @@ class Flagger {
   [[nodiscard]] bool in_layer(std::size_t axis, std::int64_t local) const {
     return (open_[axis][0] && local == 1) || (open_[axis][1] && local == field_.block.dims[axis]);
   }
-  void flag_interfacial(const Index3& node, NodeBits& flags) const {
-    Index3 cell;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      cell[axis] = field_.axes[axis].resolve(node[axis] - 1 + field_.block.offset[axis]);
-    }
-    if (field_.is_interfacial(field_.fraction(cell))) {
-      flags.set(node, true);
-    }
-  }
-
   const BlockField& field_;
   const NodeBits& nodes_;
   Index3 last_{};
@@ -148,11 +151,13 @@ PlaneTable make_planes(const BlockField& field, const NodeBits& nodes, const Opt
                        Phases& phases, Report& report) {
   NodeBits flags(nodes.first(), nodes.last());
   const std::int64_t row_length = nodes.last()[1] + 1;
-  const Flagger flagger(field, nodes, options.placement == Placement::plic);
-  phases.run(0.05, nodes.rows(), kRowsPerPortion, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t row = begin; row < end; ++row) {
-      flagger.flag_row(row % row_length, row / row_length, flags);
-    }
+  with_scalar(field.view.type, [&](auto type) {
+    const Flagger<decltype(type)> flagger(field, nodes, options.placement == Placement::plic);
+    phases.run(0.05, nodes.rows(), kRowsPerPortion, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t row = begin; row < end; ++row) {
+        flagger.flag_row(row % row_length, row / row_length, flags);
+      }
+    });
   });
   PlaneTable table(std::move(flags));
   std::vector<SourceCounts> portions(

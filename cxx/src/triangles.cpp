@@ -94,36 +94,50 @@ class VertexNumbers {
     for (std::size_t n = 0; n < 4; ++n) {
       const std::int64_t row = grid.nodes().row_index(j + static_cast<std::int64_t>(n & 1),
                                                       k + static_cast<std::int64_t>(n >> 1));
-      start_[n] = vertex_start[static_cast<std::size_t>(row)];
+      next_[n] = vertex_start[static_cast<std::size_t>(row)];
     }
   }
 
   /// Must be called for words 0, 1, 2 … in turn.
   void enter_word(std::int64_t w) {
     for (std::size_t n = 0; n < 4; ++n) {
-      if (w > 0) {
-        start_[n] += word_[n].any() != 0 ? word_[n].count() : 0;
-      }
+      skip_to(n, 64);
       word_[n] = edges_[n].word(w);
     }
+    counted_ = 0;
     entered_ = w;
   }
 
-  /// For the cell at a bit: numbers by edge of the cell; meaningless for edges that are not
-  /// crossed.
-  void around(int bit, std::array<std::uint32_t, kCubeEdges>& number) const {
+  /// For the cell at a bit: numbers by edge of the cell; meaningless for edges that are not crossed.
+  /// Must be called for rising bits.
+  void around(int bit, std::array<std::uint32_t, kCubeEdges>& number) {
     for (unsigned n = 0; n < 4; ++n) {
-      std::int64_t vertex = start_[n] + (word_[n].any() != 0 ? word_[n].count_below(bit) : 0);
-      visit_node(word_[n], bit, n, 0, vertex, number);
+      skip_to(n, bit);
+      visit_node(word_[n], bit, n, 0, next_[n], number);
+      std::int64_t beyond = next_[n];
       if (bit < 63) {
-        visit_node(word_[n], bit + 1, n, 1, vertex, number);
+        visit_node(word_[n], bit + 1, n, 1, beyond, number);
       } else {
-        visit_node(edges_[n].word(entered_ + 1), 0, n, 1, vertex, number);
+        visit_node(edges_[n].word(entered_ + 1), 0, n, 1, beyond, number);
       }
     }
+    counted_ = bit + 1;
   }
 
  private:
+  // Counts the vertices of the nodes from the last cell on. Cells come in runs, mostly without a gap.
+  void skip_to(std::size_t n, int bit) {
+    if (bit == counted_ || word_[n].any() == 0) {
+      return;
+    }
+    const std::uint64_t before = bit == 64 ? ~std::uint64_t{0} : below(bit);
+    const std::uint64_t gap = counted_ == 64 ? 0 : before & ~below(counted_);
+    if ((word_[n].any() & gap) != 0) {
+      next_[n] += count_bits(word_[n].x & gap) + count_bits(word_[n].y & gap) +
+                  count_bits(word_[n].z & gap);
+    }
+  }
+
   // The edges that start at a node, x, y, z, as vertices are numbered. Bit 0 of the row n is its
   // place in y, bit 1 in z; the cell has an edge in y only from its lower rows in y, in z from its
   // lower ones in z.
@@ -145,7 +159,8 @@ class VertexNumbers {
 
   std::array<EdgeRow, 4> edges_;
   std::array<EdgeWord, 4> word_{};
-  std::array<std::int64_t, 4> start_{};
+  std::array<std::int64_t, 4> next_{};  // vertices before the node at bit counted_
+  int counted_ = 0;
   std::int64_t entered_ = 0;
 };
 

@@ -96,13 +96,22 @@ class VertexPlacer {
     if (options_.placement == Placement::midpoint) {
       return 0.5;
     }
-    const double lower = grid_.cell_fraction(edge.lower, grid_.origin(edge.lower));
-    const double upper = grid_.cell_fraction(edge.upper, grid_.origin(edge.upper));
+    const double lower = fraction_at(edge.lower);
+    const double upper = fraction_at(edge.upper);
     const double outer = edge.upper_inside ? lower : upper;
     const double inner = edge.upper_inside ? upper : lower;
     const double mu = options_.placement == Placement::linear ? linear_position(outer, inner)
                                                               : manson_position(outer, inner);
     return edge.upper_inside ? mu : 1.0 - mu;
+  }
+
+  [[nodiscard]] double fraction_at(const Index3& node) const {
+    if (!grid_.is_own(node)) {
+      return grid_.cell_fraction(node, grid_.origin(node));
+    }
+    const Index3& offset = grid_.field().block.offset;
+    return grid_.field().fraction(
+        {node[0] - 1 + offset[0], node[1] - 1 + offset[1], node[2] - 1 + offset[2]});
   }
 
   [[nodiscard]] EdgePlane oriented(const DualEdge& edge, const UnitPlane& plane) const {
