@@ -7,74 +7,13 @@
 
 #include "difmesh/error.hpp"
 #include "difmesh/reconstruct.hpp"
+#include "support/blocks.hpp"
 #include "support/fields.hpp"
 
 using namespace difmesh;
 using difmesh::test::OwnedField;
 
 namespace {
-
-// The cells of a block with its ghost layers, copied out of the whole field. Beyond a periodic side
-// the ghosts are wrapped.
-struct BlockData {
-  Block block;
-  OwnedField cells{{0, 0, 0}};
-};
-
-BlockData cut_out(const OwnedField& field, const Index3& low, const Index3& high,
-                  const Options& options) {
-  BlockData data;
-  Index3 from{};
-  Index3 size{};
-  for (std::size_t a = 0; a < 3; ++a) {
-    const bool periodic = options.sides[2 * a] == Side::periodic;
-    const bool whole = low[a] == 0 && high[a] == field.dims[a];
-    data.block.offset[a] = low[a];
-    data.block.dims[a] = high[a] - low[a];
-    data.block.ghost_low[a] =
-        periodic ? (whole ? 0 : kGhostLayers) : std::min(kGhostLayers, low[a]);
-    data.block.ghost_high[a] =
-        periodic ? (whole ? 0 : kGhostLayers) : std::min(kGhostLayers, field.dims[a] - high[a]);
-    from[a] = low[a] - data.block.ghost_low[a];
-    size[a] = data.block.dims[a] + data.block.ghost_low[a] + data.block.ghost_high[a];
-  }
-  data.cells = OwnedField(size);
-  const auto wrapped = [&](std::size_t a, std::int64_t n) {
-    return (from[a] + n + 4 * field.dims[a]) % field.dims[a];
-  };
-  for (std::int64_t k = 0; k < size[2]; ++k) {
-    for (std::int64_t j = 0; j < size[1]; ++j) {
-      for (std::int64_t i = 0; i < size[0]; ++i) {
-        data.cells.at(i, j, k) = field.values[static_cast<std::size_t>(
-            (wrapped(2, k) * field.dims[1] + wrapped(1, j)) * field.dims[0] + wrapped(0, i))];
-      }
-    }
-  }
-  return data;
-}
-
-Mesh in_blocks(const OwnedField& field, const Grid& grid, const Index3& cut,
-               const Options& options) {
-  std::vector<Mesh> meshes;
-  // Blocks in an order that is not that of the mesh.
-  for (int b = 7; b >= 0; --b) {
-    Index3 low{};
-    Index3 high{};
-    bool exists = true;
-    for (std::size_t a = 0; a < 3; ++a) {
-      const bool upper = (b >> a & 1) != 0;
-      low[a] = upper ? cut[a] : 0;
-      high[a] = upper ? field.dims[a] : cut[a];
-      exists = exists && low[a] < high[a];
-    }
-    if (!exists) {
-      continue;
-    }
-    const BlockData data = cut_out(field, low, high, options);
-    meshes.push_back(reconstruct_block(data.cells.view(), data.block, grid, options).mesh);
-  }
-  return weld(meshes, grid);
-}
 
 void check_blocks(const OwnedField& field, const Index3& cut, Options options) {
   const Grid grid{field.dims, {0.1, -0.7, 3.3}, {0.3, 0.1, 0.7}};
@@ -85,7 +24,7 @@ void check_blocks(const OwnedField& field, const Index3& cut, Options options) {
   CAPTURE(static_cast<int>(options.sides[0]));
   CAPTURE(static_cast<int>(options.placement));
   CAPTURE(cut[0]);
-  CHECK(test::same_bits(in_blocks(field, grid, cut, options), whole));
+  CHECK(test::same_bits(test::in_blocks(field, grid, cut, options), whole));
 }
 
 std::string weld_error(const std::vector<Mesh>& meshes, const Grid& grid) {

@@ -28,10 +28,12 @@ class NormalStencil {
   struct Neighbourhood {
     double c[3][3][3];
     double present[3][3];  // [axis][offset]
+    bool is_cut_short;     // a layer is missing
   };
 
   void gather(const Index3& cell, Neighbourhood& hood) const;
   void gather_at_side(const Index3& cell, Neighbourhood& hood) const;
+  [[nodiscard]] static Vec3 fit(const Neighbourhood& hood, const Vec3& m);
   [[nodiscard]] static Vec3 youngs(const Neighbourhood& hood);
   [[nodiscard]] static UnitNormal mixed(const Neighbourhood& hood, const Vec3& gradient);
   [[nodiscard]] bool is_inside(const Index3& cell, std::size_t axis) const;

@@ -6,6 +6,7 @@
 
 #include "difmesh/error.hpp"
 #include "normal_stencil.hpp"
+#include "plane_fit.hpp"
 #include "unit_plane.hpp"
 
 namespace difmesh {
@@ -56,6 +57,9 @@ UnitNormal NormalStencil<T>::operator()(const Index3& cell) const {
   if (normals_ == Normals::myc) {
     return normal;
   }
+  if (hood.is_cut_short && hood.c[1][1][1] > 0.0 && hood.c[1][1][1] < 1.0) {
+    normal = {fit(hood, normal.m), NormalSource::least_squares};
+  }
   const Vec3 size_of{std::abs(normal.m[0]), std::abs(normal.m[1]), std::abs(normal.m[2])};
   const double largest = std::max({size_of[0], size_of[1], size_of[2]});
   Vec3 sum{0.0, 0.0, 0.0};
@@ -105,17 +109,20 @@ void NormalStencil<T>::gather(const Index3& cell, Neighbourhood& hood) const {
   for (auto& axis : hood.present) {
     axis[0] = axis[1] = axis[2] = 1.0;
   }
+  hood.is_cut_short = false;
 }
 
 template <class T>
 void NormalStencil<T>::gather_at_side(const Index3& cell, Neighbourhood& hood) const {
   std::int64_t resolved[3][3];
+  hood.is_cut_short = false;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::int64_t offset = 0; offset < 3; ++offset) {
       const std::int64_t index = field_.axes[axis].resolve(cell[axis] + offset - 1);
       // A missing layer is read as the centre first and continued below.
       resolved[axis][offset] = index == kMissing ? cell[axis] : index;
       hood.present[axis][offset] = index == kMissing ? 0.0 : 1.0;
+      hood.is_cut_short = hood.is_cut_short || index == kMissing;
     }
   }
   double* c = &hood.c[0][0][0];
@@ -143,6 +150,23 @@ void NormalStencil<T>::gather_at_side(const Index3& cell, Neighbourhood& hood) c
       }
     }
   }
+}
+
+// One-sided differences tell too little of a surface that leaves the domain; all that the neighbours hold
+// tells enough.
+template <class T>
+Vec3 NormalStencil<T>::fit(const Neighbourhood& hood, const Vec3& m) {
+  NeighbourFractions neighbours;
+  for (int k = 0; k < 3; ++k) {
+    for (int j = 0; j < 3; ++j) {
+      for (int i = 0; i < 3; ++i) {
+        neighbours.fraction[k][j][i] = hood.c[k][j][i];
+        neighbours.is_there[k][j][i] =
+            hood.present[0][i] != 0.0 && hood.present[1][j] != 0.0 && hood.present[2][k] != 0.0;
+      }
+    }
+  }
+  return fit_to_neighbours(neighbours, m);
 }
 
 // Minus the gradient of the fractions, per cell: differences of layers weighted (1,2,1)x(1,2,1)/16.

@@ -66,9 +66,9 @@ std::vector<double> turning_points(const EdgePlane& outer, const EdgePlane& inne
     const double c2 = 2.0 * (left + right - 2.0 * middle);
     const double root = std::sqrt(std::max(c1 * c1 - 4.0 * c2 * middle, 0.0));
     const double q = -0.5 * (c1 + std::copysign(root, c1));
-    double zeros[2] = {q / c2, middle / q};
-    std::sort(zeros, zeros + 2);
-    for (const double t : zeros) {
+    const double zeros[2] = {q / c2, middle / q};  // no numbers where the slope is constant
+    const bool ascending = zeros[0] <= zeros[1];
+    for (const double t : {zeros[ascending ? 0 : 1], zeros[ascending ? 1 : 0]}) {
       if (t > -1.0 && t < 1.0) {
         turns.push_back(low + size * (0.5 + 0.5 * t));
       }

@@ -33,9 +33,9 @@ struct WindowRoot {
 };
 
 /// Solves for the half-full window. Where the share filled is not monotone along the edge and has
-/// several roots, takes the one that Algorithm 1 of E19 reaches from start(), an Algorithm1Start
-/// made only on suspicion. \pre the window is at most half full at s = 0 and at least half full at
-/// s = 1
+/// several roots, takes the rising one nearest to where Algorithm 1 of E19 ends from start(), an
+/// Algorithm1Start made only on suspicion.
+/// \pre the window is at most half full at s = 0 and at least half full at s = 1
 template <class Start>
 [[nodiscard]] WindowRoot solve_window(const EdgePlane& outer, const EdgePlane& inner,
                                       const Start& start);

@@ -115,6 +115,7 @@ Algorithm1Result algorithm1(const CrossedEdge& edge, double start, double tolera
   const auto axis = static_cast<std::size_t>(edge.axis);
   Algorithm1Result result;
   result.mu = start;
+  bool settled = false;
   while (result.steps < cap) {
     const Vec3 normal = add(scaled(edge.outer_plane.normal, 1.0 - result.mu),
                             scaled(edge.inner_plane.normal, result.mu));
@@ -122,14 +123,14 @@ Algorithm1Result algorithm1(const CrossedEdge& edge, double start, double tolera
     const double share = window_fraction(edge, result.mu);
     const double offset = offset_by_bracketing(edge.spacing, normal, share);
     const double next = std::clamp(result.mu + offset / along, 0.0, 1.0);
-    const double step = std::abs(next - result.mu);
+    settled = std::abs(next - result.mu) < tolerance;
     result.mu = next;
     ++result.steps;
-    if (!(step >= tolerance)) {
+    if (settled || std::isnan(next)) {
       break;
     }
   }
-  result.converged = std::abs(window_fraction(edge, result.mu) - 0.5) < 1e-9;
+  result.converged = settled && std::abs(window_fraction(edge, result.mu) - 0.5) < 10.0 * tolerance;
   return result;
 }
 

@@ -16,7 +16,8 @@ enum class NormalSource : std::uint8_t {
   none,    ///< no gradient: a lone droplet cell, a film symmetric about the cell. Normal is 0
   youngs,  ///< weighted gradient
   centred_columns,  ///< centred differences of columns of three (MYC)
-  height_function,  ///< centred differences of columns of nine
+  height_function,  ///< differences of columns of nine
+  least_squares,  ///< fitted to the neighbours' fractions, where an open side cuts the stencils short
 };
 
 struct CellPlane {

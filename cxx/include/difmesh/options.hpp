@@ -19,9 +19,11 @@ enum class Placement : std::uint8_t {
 
 /// How the normal of an interfacial cell is estimated.
 enum class Normals : std::uint8_t {
-  youngs,           ///< weighted gradient on 3x3x3 cells
-  myc,              ///< mixed Youngs-centred on 3x3x3 cells (Aulisa et al., J. Comput. Phys. 2007)
-  height_function,  ///< 3x3 columns of 9 cells where consistent, myc elsewhere
+  youngs,  ///< weighted gradient on 3x3x3 cells
+  myc,     ///< mixed Youngs-centred on 3x3x3 cells (Aulisa et al., J. Comput. Phys. 2007)
+  /// 3x3 columns of 9 cells where consistent, myc elsewhere; cells at open sides without consistent
+  /// columns get the plane that suits their neighbours' fractions best.
+  height_function,
 };
 
 /// What lies beyond a side of the domain.

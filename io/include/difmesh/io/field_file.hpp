@@ -1,0 +1,90 @@
+#pragma once
+/// \file field_file.hpp
+/// Fields of fractions in files: NumPy (.npy), NRRD (.nrrd, .nhdr) and raw.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "difmesh/field_view.hpp"
+#include "difmesh/grid.hpp"
+#include "difmesh/mesh.hpp"
+
+namespace difmesh {
+
+/// A field that owns its memory, in the layout of the file that it came from.
+struct FieldFile {
+  ScalarType type = ScalarType::float64;
+  Index3 dims{0, 0, 0};     ///< cells in x, y, z
+  Index3 strides{0, 0, 0};  ///< elements from one cell to the next; negative for flipped axes
+  std::int64_t first = 0;   ///< element of cell (0,0,0), counted from the start of `cells`
+  std::optional<Vec3> origin = {};   ///< low corner of cell (0,0,0), where the file tells it
+  std::optional<Vec3> spacing = {};  ///< where the file tells it
+  Array<std::byte> cells;            ///< elements of `type` in the machine's byte order
+
+  /// Valid as long as `cells` is neither changed nor destroyed.
+  [[nodiscard]] FieldView view() const;
+  /// The grid, with origin (0,0,0) and spacing (1,1,1) where the file tells none.
+  [[nodiscard]] Grid grid() const;
+};
+
+/// Where the elements of a raw file are: x fastest, then y, then z, up to the end of the file.
+struct RawLayout {
+  Index3 dims{0, 0, 0};  ///< cells in x, y, z
+  ScalarType type = ScalarType::float64;
+  bool big_endian = false;
+  std::int64_t offset = 0;  ///< bytes before the first element
+};
+
+/// Reads a field; the extension of the path, in any case of letters, tells the format.
+/// - `.npy`, versions 1 to 3: rank 3, indexed [k,j,i], so that C order has x fastest and Fortran
+/// order
+///   z fastest. Types f4, f8, u1, u2 in either byte order, and b1: true is 255 of uint8, that is 1.
+/// - `.nrrd`, `.nhdr`, NRRD0001 to NRRD0005: dimension 3, types float, double, uchar, ushort and
+/// their
+///   synonyms, encodings raw, gzip and ascii, data attached or in one other file. Every sample is a
+///   cell. `space origin` and node-centred `axis mins` are the centre of the first sample, other
+///   `axis mins` its low corner. `space directions` must lie along the axes, in any order and
+///   sense: strides put them in the order x, y, z and make them ascend. Coordinates are taken as
+///   they stand in any named space; there is no change between, say, LPS and RAS.
+/// The file is checked against its header before memory is taken: never more than the file's size,
+/// or 1032 times it for gzip, the most that deflate can give. \throw Error file_missing if the file
+/// cannot be opened; file_format if it is malformed, truncated,
+///   of a kind not supported or of an unknown extension; too_large if its sizes overflow 63 bits.
+///   The message names the file and the matter. Values are not looked at: NaN is for the caller to
+///   find.
+/// Cost: one pass over the file. Thread safety: concurrent calls are safe.
+/// Source: NEP 1 of NumPy; "Definition of NRRD File Format", G. Kindlmann, Teem.
+[[nodiscard]] FieldFile read_field(const std::filesystem::path& path);
+
+/// Reads a raw file, whatever its extension. It must end with the last element.
+/// \throw as above, and invalid_argument for a layout without cells or with a negative offset.
+[[nodiscard]] FieldFile read_field(const std::filesystem::path& path, const RawLayout& layout);
+
+enum class FieldFormat : std::uint8_t {
+  npy,   ///< version 1.0, little endian, C order (nz,ny,nx). Holds no origin and no spacing
+  nrrd,  ///< NRRD0004, little endian, attached; `space origin` is the centre of cell (0,0,0)
+};
+
+struct WriteFieldOptions {
+  std::optional<FieldFormat> format = {};  ///< by the extension of the path if not set
+  /// Type of the elements, that of the field if not set. Fractions are rounded to the nearest value
+  /// of the type; integers hold [0,1] only, so values beyond are clamped.
+  std::optional<ScalarType> type = {};
+  bool gzip = true;    ///< NRRD: gzip or raw
+  int gzip_level = 6;  ///< 1 fast to 9 small
+};
+
+/// Writes a field, with its grid where there is one and the format can hold it. Values of a type
+/// kept, spacing and origin come back from read_field() bit for bit. The file appears under its
+/// name when it is complete and not before; on failure nothing is left and an older file stays as
+/// it was. Targets that are no regular files, such as /dev/stdout, are written directly. \throw
+/// Error invalid_argument (field without data, options, grid of other dims, unknown extension),
+///   invalid_grid, too_large; invalid_value for a NaN that has to become an integer, with its cell;
+///   file_write with the path and the system's reason.
+/// Cost: one pass over the field, and deflate. Thread safety: concurrent calls are safe.
+void write_field(const std::filesystem::path& path, const FieldView& field,
+                 const std::optional<Grid>& grid = {}, const WriteFieldOptions& options = {});
+
+}  // namespace difmesh

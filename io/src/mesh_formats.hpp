@@ -1,0 +1,50 @@
+#pragma once
+/// \file mesh_formats.hpp
+/// One reader and one writer for each mesh format.
+///
+/// Why our own and not OpenMesh's: OpenMesh 9.0 passes every position and normal through float32.
+/// Its readers and writers of PLY, OBJ and OFF, binary and text, with a mesh of float64 points and
+/// 17 digits asked for, give back 0.1 as 0.10000000149011612. STL is float32 by format, so there
+/// its writer serves; its reader drops triangles whose corners coincide.
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "atomic_file.hpp"
+#include "difmesh/mesh.hpp"
+#include "input_file.hpp"
+
+namespace difmesh::detail {
+
+/// The writers take a mesh whose indices, sizes and numbers were checked.
+void write_ply(AtomicFile& file, const Mesh& mesh, bool normals, bool edge_ids);
+void write_obj(AtomicFile& file, const Mesh& mesh, bool normals);
+void write_off(AtomicFile& file, const Mesh& mesh, bool normals);
+void write_stl(AtomicFile& file, const Mesh& mesh);
+
+[[nodiscard]] Mesh read_ply(const InputFile& file);
+[[nodiscard]] Mesh read_obj(const InputFile& file);
+[[nodiscard]] Mesh read_off(const InputFile& file);
+[[nodiscard]] Mesh read_stl(const InputFile& file);
+
+/// The most vertices that 32-bit indices can name.
+inline constexpr std::int64_t kMostVertices = 0xFFFFFFFF;
+
+/// "x y z", each as short as it can be and still be read as the same number.
+inline void write_vector(AtomicFile& file, const Vec3& vector) {
+  file.write_number(vector[0]);
+  file.write(" ");
+  file.write_number(vector[1]);
+  file.write(" ");
+  file.write_number(vector[2]);
+}
+
+/// Appends a polygon as a fan about its first corner.
+inline void append_fan(Array<Triangle>& triangles, const std::vector<std::uint32_t>& corners) {
+  for (std::size_t c = 2; c < corners.size(); ++c) {
+    triangles.push_back({corners[0], corners[c - 1], corners[c]});
+  }
+}
+
+}  // namespace difmesh::detail

@@ -1,0 +1,266 @@
+#include "npy.hpp"
+
+#include <array>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "difmesh/error.hpp"
+#include "elements.hpp"
+#include "input_file.hpp"
+#include "text.hpp"
+
+namespace difmesh::detail {
+namespace {
+
+constexpr std::string_view kMagic = "\x93NUMPY";
+constexpr std::int64_t kLongestHeader = 65536;  // numpy itself refuses more than 10,000
+
+struct NpyHeader {
+  std::string type;  ///< such as <f8
+  bool fortran_order = false;
+  std::vector<std::int64_t> shape;
+  std::int64_t data_offset = 0;
+};
+
+/// Parses the header's Python dictionary: string keys, and values that are a string, True, False or
+/// a tuple of integers. Nothing nests, so nothing recurs.
+class DictParser {
+ public:
+  DictParser(const std::filesystem::path& path, std::string_view text) : path_(path), rest_(text) {}
+
+  NpyHeader parse() {
+    expect('{');
+    while (!accept('}')) {
+      const std::string key = string();
+      expect(':');
+      value_of(key);
+      if (!accept(',')) {
+        expect('}');
+        break;
+      }
+    }
+    if (!trimmed(rest_).empty()) {
+      fail("more after the dictionary");
+    }
+    if (seen_ != 7) {
+      fail("it needs each of 'descr', 'fortran_order' and 'shape'");
+    }
+    return header_;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& matter) const {
+    fail_format(path_, "bad .npy header: " + matter);
+  }
+
+  void value_of(const std::string& key) {
+    if (key == "descr") {
+      first_time(key, 1);
+      if (peek() == '[') {
+        fail("a structured type; arrays of f4, f8, u1, u2 or b1 can be read");
+      }
+      header_.type = string();
+    } else if (key == "fortran_order") {
+      first_time(key, 2);
+      header_.fortran_order = boolean();
+    } else if (key == "shape") {
+      first_time(key, 4);
+      tuple();
+    } else {
+      fail("unknown key '" + key + "'");
+    }
+  }
+
+  void first_time(const std::string& key, unsigned bit) {
+    if ((seen_ & bit) != 0) {
+      fail(in_quotes(key) + " twice");
+    }
+    seen_ |= bit;
+  }
+
+  char peek() {
+    while (!rest_.empty() && (rest_[0] == ' ' || rest_[0] == '\n' || rest_[0] == '\t')) {
+      rest_.remove_prefix(1);
+    }
+    return rest_.empty() ? '\0' : rest_[0];
+  }
+
+  bool accept(char wanted) {
+    const bool there = peek() == wanted && !rest_.empty();
+    rest_.remove_prefix(there ? 1 : 0);
+    return there;
+  }
+
+  void expect(char wanted) {
+    if (!accept(wanted)) {
+      fail(std::string("'") + wanted + "' wanted " +
+           (rest_.empty() ? std::string("at the end") : "before '" + excerpt() + "'"));
+    }
+  }
+
+  [[nodiscard]] std::string excerpt() const { return std::string(rest_.substr(0, 20)); }
+
+  std::string string() {
+    const char quote = peek();
+    const std::size_t end = quote == '\'' || quote == '"' ? rest_.find(quote, 1) : rest_.npos;
+    if (end == rest_.npos) {
+      fail("a string wanted before '" + excerpt() + "'");
+    }
+    const std::string text(rest_.substr(1, end - 1));
+    rest_.remove_prefix(end + 1);
+    return text;
+  }
+
+  bool boolean() {
+    peek();
+    for (const bool value : {false, true}) {
+      const std::string_view word = value ? "True" : "False";
+      if (rest_.starts_with(word)) {
+        rest_.remove_prefix(word.size());
+        return value;
+      }
+    }
+    fail("True or False wanted before '" + excerpt() + "'");
+  }
+
+  void tuple() {
+    expect('(');
+    while (!accept(')')) {
+      peek();
+      const std::size_t digits = std::min(rest_.find_first_not_of("0123456789"), rest_.size());
+      const std::optional<std::int64_t> dim = to_integer(rest_.substr(0, digits));
+      if (!dim) {
+        fail("a dimension wanted before '" + excerpt() + "'");
+      }
+      header_.shape.push_back(*dim);
+      rest_.remove_prefix(digits);
+      rest_.remove_prefix(rest_.starts_with('L') ? 1 : 0);  // as Python 2 wrote long integers
+      if (!accept(',')) {
+        expect(')');
+        break;
+      }
+    }
+  }
+
+  const std::filesystem::path& path_;
+  std::string_view rest_;
+  NpyHeader header_;
+  unsigned seen_ = 0;
+};
+
+NpyHeader read_header(const InputFile& file) {
+  const Array<char> start = file.read_text(0, 12);
+  if (!std::string_view(start.data(), start.size()).starts_with(kMagic)) {
+    fail_format(file.path(), "no .npy file: it does not start with \\x93NUMPY");
+  }
+  const auto byte = [&](std::size_t at) {
+    if (at >= start.size()) {
+      fail_format(file.path(), "truncated in the .npy header");
+    }
+    return std::int64_t{static_cast<unsigned char>(start[at])};
+  };
+  const std::int64_t version = byte(6);
+  if (version < 1 || version > 3) {
+    fail_format(file.path(), "version " + std::to_string(version) + "." + std::to_string(byte(7)) +
+                                 " of .npy; 1.0, 2.0 and 3.0 can be read");
+  }
+  std::int64_t length = byte(8) + (byte(9) << 8);
+  if (version > 1) {
+    length += (byte(10) << 16) + (byte(11) << 24);
+  }
+  const std::int64_t offset = version == 1 ? 10 : 12;
+  if (length > kLongestHeader) {
+    fail_format(file.path(), "a .npy header of " + std::to_string(length) + " bytes");
+  }
+  if (offset + length > file.size()) {
+    fail_format(file.path(), "truncated in the .npy header: " + std::to_string(offset + length) +
+                                 " bytes wanted, " + std::to_string(file.size()) + " found");
+  }
+  const Array<char> text = file.read_text(offset, length);
+  NpyHeader header = DictParser(file.path(), {text.data(), text.size()}).parse();
+  header.data_offset = offset + length;
+  return header;
+}
+
+struct ElementType {
+  ScalarType scalar = ScalarType::float64;
+  bool big_endian = false;
+  bool boolean = false;
+};
+
+ElementType element_type(const std::filesystem::path& path, const std::string& name) {
+  const std::string kind = name.empty() ? "" : name.substr(1);
+  const char order = name.empty() ? '\0' : name[0];
+  const bool wide = kind == "f4" || kind == "f8" || kind == "u2";
+  const bool narrow = kind == "u1" || kind == "b1";
+  const bool known_order = order == '<' || order == '>' || order == '=' || (narrow && order == '|');
+  if ((!wide && !narrow) || !known_order) {
+    fail_format(path, "elements of type '" + name +
+                          "'; f4, f8, u1, u2 and b1, little or big endian, can be read");
+  }
+  ElementType type;
+  type.scalar = kind == "f4"   ? ScalarType::float32
+                : kind == "f8" ? ScalarType::float64
+                : kind == "u2" ? ScalarType::uint16
+                               : ScalarType::uint8;
+  type.big_endian = order == '>' || (order == '=' && kBigEndianHost);
+  type.boolean = kind == "b1";
+  return type;
+}
+
+}  // namespace
+
+FieldFile read_npy(const std::filesystem::path& path) {
+  const InputFile file(path);
+  const NpyHeader header = read_header(file);
+  if (header.shape.size() != 3) {
+    fail_format(path, "an array of rank " + std::to_string(header.shape.size()) +
+                          "; a field has rank 3, indexed [k,j,i]");
+  }
+  const ElementType type = element_type(path, header.type);
+  FieldFile field;
+  field.type = type.scalar;
+  field.dims = {header.shape[2], header.shape[1], header.shape[0]};
+  const std::int64_t bytes = bytes_promised(path, field.dims, field.type);
+  const std::int64_t found = file.size() - header.data_offset;
+  if (found != bytes) {
+    fail_format(path, (found < bytes ? "truncated: " : "too long: ") + to_text(field.dims) +
+                          " cells of type '" + header.type + "' are " + std::to_string(bytes) +
+                          " bytes after the header, " + std::to_string(found) + " found");
+  }
+  const auto [nx, ny, nz] = field.dims;
+  field.strides = header.fortran_order ? Index3{nz * ny, nz, 1} : Index3{1, nx, nx * ny};
+  field.cells.resize(static_cast<std::size_t>(bytes));
+  file.read(header.data_offset, field.cells.data(), bytes);
+  if (type.big_endian != kBigEndianHost) {
+    swap_bytes(field.cells.data(), bytes, field.type);
+  }
+  if (type.boolean) {
+    for (std::byte& cell : field.cells) {
+      cell = cell == std::byte{0} ? std::byte{0} : std::byte{255};
+    }
+  }
+  return field;
+}
+
+void write_npy(AtomicFile& file, const FieldView& field, ScalarType type) {
+  constexpr std::array<std::string_view, 4> names{"<f4", "<f8", "|u1", "<u2"};
+  const auto [nx, ny, nz] = field.dims;
+  std::string header = "{'descr': '" + std::string(names[static_cast<std::size_t>(type)]) +
+                       "', 'fortran_order': False, 'shape': (" + std::to_string(nz) + ", " +
+                       std::to_string(ny) + ", " + std::to_string(nx) + "), }";
+  // The data start at a multiple of 64 bytes, for those who map the file into memory.
+  header.append(63 - (10 + header.size()) % 64, ' ');
+  header += '\n';
+  file.write(kMagic);
+  const std::array<char, 4> version_and_length{1, 0, static_cast<char>(header.size() & 255U),
+                                               static_cast<char>(header.size() >> 8U)};
+  file.write(version_and_length.data(), version_and_length.size());
+  file.write(header);
+  write_elements(field, type,
+                 [&](const std::byte* row, std::size_t bytes) { file.write(row, bytes); });
+}
+
+}  // namespace difmesh::detail
