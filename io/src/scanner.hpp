@@ -10,8 +10,7 @@
 
 namespace difmesh::detail {
 
-/// Goes over the lines that hold a word; a comment ends its line. Errors name the file and the
-/// line.
+/// Goes over the lines that hold a word. Errors name the file and the line.
 class Scanner {
  public:
   struct Style {

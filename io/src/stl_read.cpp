@@ -108,8 +108,7 @@ Mesh read_binary(const std::filesystem::path& path, std::string_view bytes) {
   return mesh;
 }
 
-/// Reads the lines `vertex x y z`, three to an `outer loop`; solids, normals and names do not
-/// count.
+/// Reads the lines `vertex x y z`, three to an `outer loop`; normals and names do not count.
 Mesh read_text(const std::filesystem::path& path, std::string_view text) {
   Scanner lines(path, text, {});
   Mesh mesh;

@@ -39,8 +39,7 @@ bool equal_bits(const difmesh::Array<Vec3>& a, const difmesh::Array<Vec3>& b) {
          (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0);
 }
 
-/// A sphere by subdivision of the octahedron's faces into rows: closed, every coordinate
-/// irrational.
+/// A sphere of rows of latitude: closed, with coordinates that float32 cannot hold.
 Mesh sphere(std::uint32_t rows) {
   Mesh mesh;
   const std::uint32_t around = 2 * rows;

@@ -37,11 +37,11 @@ struct Measure {
 
 /// Measures a mesh.
 /// \throw Error invalid_argument if an index is out of range (the triangle is named) or a position
-/// is
-///   not finite (the vertex is named).
-/// Cost: O(n log n) at worst and O(n) for meshes of bounded vertex degree; about 100 bytes of
-/// memory per triangle. Thread safety: pure function. Area and volume are compensated sums in the order of
-/// the triangles.
+///   is not finite (the vertex is named).
+///
+/// Cost: O(n log n) at worst and O(n) for meshes of bounded vertex degree, some 0.15 s for a
+/// million triangles; about 100 bytes of memory per triangle. Area and volume are compensated sums
+/// in the order of the triangles. Thread safety: pure function.
 [[nodiscard]] Measure measure(std::span<const Vec3> positions, std::span<const Triangle> triangles);
 [[nodiscard]] inline Measure measure(const Mesh& mesh) {
   return measure(mesh.positions, mesh.triangles);

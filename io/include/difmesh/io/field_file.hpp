@@ -38,22 +38,22 @@ struct RawLayout {
 };
 
 /// Reads a field; the extension of the path, in any case of letters, tells the format.
-/// - `.npy`, versions 1 to 3: rank 3, indexed [k,j,i], so that C order has x fastest and Fortran
-/// order
-///   z fastest. Types f4, f8, u1, u2 in either byte order, and b1: true is 255 of uint8, that is 1.
-/// - `.nrrd`, `.nhdr`, NRRD0001 to NRRD0005: dimension 3, types float, double, uchar, ushort and
-/// their
-///   synonyms, encodings raw, gzip and ascii, data attached or in one other file. Every sample is a
-///   cell. `space origin` and node-centred `axis mins` are the centre of the first sample, other
-///   `axis mins` its low corner. `space directions` must lie along the axes, in any order and
+/// - `.npy`, versions 1 to 3: rank 3, indexed [k,j,i]: C order has x fastest, Fortran order z.
+///   Types f4, f8, u1, u2 in either byte order, and b1: true is 255 of uint8, that is 1.
+/// - `.nrrd`, `.nhdr`, NRRD0001 to NRRD0005: dimension 3; types float, double, uchar, ushort and
+///   their synonyms; encodings raw, gzip and ascii; data attached or in one other file. Every
+///   sample is a cell. `space origin` and node-centred `axis mins` are the centre of the first one,
+///   other `axis mins` its low corner. `space directions` must lie along the axes, in any order and
 ///   sense: strides put them in the order x, y, z and make them ascend. Coordinates are taken as
 ///   they stand in any named space; there is no change between, say, LPS and RAS.
-/// The file is checked against its header before memory is taken: never more than the file's size,
-/// or 1032 times it for gzip, the most that deflate can give. \throw Error file_missing if the file
-/// cannot be opened; file_format if it is malformed, truncated,
-///   of a kind not supported or of an unknown extension; too_large if its sizes overflow 63 bits.
-///   The message names the file and the matter. Values are not looked at: NaN is for the caller to
-///   find.
+///
+/// The file is checked against its header before memory is taken: never more than four times the
+/// size of the file, or 1032 times for gzip, the most that deflate can give.
+/// \throw Error file_missing if the file cannot be opened; file_format if it is malformed,
+///   truncated, of a kind not supported or of an unknown extension; too_large if its sizes overflow
+///   63 bits. The message names the file and the matter. Values are not looked at: NaN is for the
+///   caller to find.
+///
 /// Cost: one pass over the file. Thread safety: concurrent calls are safe.
 /// Source: NEP 1 of NumPy; "Definition of NRRD File Format", G. Kindlmann, Teem.
 [[nodiscard]] FieldFile read_field(const std::filesystem::path& path);
@@ -76,13 +76,14 @@ struct WriteFieldOptions {
   int gzip_level = 6;  ///< 1 fast to 9 small
 };
 
-/// Writes a field, with its grid where there is one and the format can hold it. Values of a type
-/// kept, spacing and origin come back from read_field() bit for bit. The file appears under its
+/// Writes a field, with its grid where there is one and the format can hold it. Values whose type
+/// is kept, spacing and origin come back from read_field() bit for bit. The file appears under its
 /// name when it is complete and not before; on failure nothing is left and an older file stays as
-/// it was. Targets that are no regular files, such as /dev/stdout, are written directly. \throw
-/// Error invalid_argument (field without data, options, grid of other dims, unknown extension),
-///   invalid_grid, too_large; invalid_value for a NaN that has to become an integer, with its cell;
-///   file_write with the path and the system's reason.
+/// it was. Targets that are no regular files, such as /dev/stdout, are written directly.
+/// \throw Error invalid_argument (field without data, options, grid of other dims, unknown
+///   extension), invalid_grid, too_large; invalid_value for a NaN that has to become an integer,
+///   with its cell; file_write with the path and the system's reason.
+///
 /// Cost: one pass over the field, and deflate. Thread safety: concurrent calls are safe.
 void write_field(const std::filesystem::path& path, const FieldView& field,
                  const std::optional<Grid>& grid = {}, const WriteFieldOptions& options = {});

@@ -30,12 +30,12 @@ struct WriteMeshOptions {
 /// /dev/stdout, are written directly. Numbers in text are as short as they can be and still be read
 /// as the same float64.
 /// \throw Error invalid_argument if an index is out of range, normals or edge_ids are neither empty
-/// nor
-///   one per vertex, or the extension is unknown; invalid_value if a position or normal is not
+///   nor one per vertex, or the extension is unknown; invalid_value if a position or normal is not
 ///   finite, or beyond the range of float32 for STL; too_large for more than 2^31 - 1 triangles in
 ///   STL; file_write with the path and the system's reason.
-/// Cost: linear; 1.2 million triangles take some 0.05 s as PLY, 0.2 s as OFF, OBJ or STL. Thread safety:
-/// concurrent calls are safe; those for STL take turns, and OpenMesh's log is off meanwhile.
+/// Cost: linear; 1.2 million triangles take some 0.05 s as PLY, 0.2 s as OFF, OBJ or STL.
+/// Thread safety: concurrent calls are safe; those for STL take turns, and OpenMesh's log is off
+/// meanwhile.
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh,
                 const WriteMeshOptions& options = {});
 
@@ -48,12 +48,12 @@ void write_mesh(const std::filesystem::path& path, const Mesh& mesh,
 /// - STL, text or binary: corners with equal coordinates become one vertex, in the order of their
 ///   first appearance; triangles that lose a corner this way are kept.
 /// \throw Error file_missing if the file cannot be opened; file_format if it is malformed,
-/// truncated,
-///   of a kind not supported or of an unknown extension, an index is out of range, a number not
-///   finite; too_large beyond 2^32 - 1 vertices. The message names the file and the line or
-///   element.
-/// Cost: linear; memory is bounded by a small multiple of the file's size. Thread safety:
-/// concurrent calls are safe.
+///   truncated, of a kind not supported or of an unknown extension, an index is out of range, a
+///   number not finite; too_large beyond 2^32 - 1 vertices. The message names the file and the line
+///   or element.
+///
+/// Cost: linear; memory is bounded by a small multiple of the file's size.
+/// Thread safety: concurrent calls are safe.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path);
 
 }  // namespace difmesh

@@ -1,0 +1,49 @@
+#pragma once
+/// \file field_input.hpp
+/// The options with which every command takes a field, and its reading.
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "difmesh/grid.hpp"
+#include "difmesh/io/field_file.hpp"
+
+namespace difmesh::cli {
+
+/// A field as the command line asks for it.
+struct FieldInput {
+  std::string path;
+  std::optional<Vec3> origin;
+  std::optional<Vec3> spacing;
+  std::optional<Index3> raw_dims;  ///< set together with raw_type
+  std::optional<ScalarType> raw_type;
+  bool raw_big_endian = false;
+  std::int64_t raw_offset = 0;
+
+  [[nodiscard]] bool is_raw() const { return raw_dims.has_value(); }
+};
+
+/// Where a part of the grid came from: the command line before the file before the default.
+enum class Source : std::uint8_t { command_line, file, assumed };
+
+struct LoadedField {
+  FieldFile file;
+  Grid grid;
+  Source origin_from = Source::file;
+  Source spacing_from = Source::file;
+};
+
+/// Adds --origin, --spacing and --raw-*. `input` must outlive the parsing.
+void add_field_options(CLI::App& command, FieldInput& input);
+
+/// \throw Error as read_field()
+[[nodiscard]] LoadedField load_field(const FieldInput& input);
+
+/// "command line", "file" or "assumed".
+[[nodiscard]] const char* name_of(Source source);
+/// The length or place with a remark where it was assumed.
+[[nodiscard]] std::string with_source(const Vec3& vector, Source source);
+
+}  // namespace difmesh::cli

@@ -1,0 +1,73 @@
+#pragma once
+/// \file names.hpp
+/// What the library's choices are called on the command line and in reports.
+
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "difmesh/field_view.hpp"
+#include "difmesh/options.hpp"
+
+namespace difmesh::cli {
+
+/// Both ends belong to it.
+struct Range {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+template <class Value>
+struct Named {
+  std::string_view name;
+  Value value;
+};
+
+inline constexpr std::array<Named<Placement>, 4> kPlacements{{{"midpoint", Placement::midpoint},
+                                                              {"linear", Placement::linear},
+                                                              {"manson", Placement::manson},
+                                                              {"plic", Placement::plic}}};
+
+inline constexpr std::array<Named<Normals>, 3> kNormals{
+    {{"youngs", Normals::youngs},
+     {"myc", Normals::myc},
+     {"height_function", Normals::height_function}}};
+
+inline constexpr std::array<Named<Side>, 5> kSides{{{"open", Side::open},
+                                                    {"mirror", Side::mirror},
+                                                    {"periodic", Side::periodic},
+                                                    {"empty", Side::empty},
+                                                    {"full", Side::full}}};
+
+inline constexpr std::array<Named<ScalarType>, 4> kScalarTypes{{{"float32", ScalarType::float32},
+                                                                {"float64", ScalarType::float64},
+                                                                {"uint8", ScalarType::uint8},
+                                                                {"uint16", ScalarType::uint16}}};
+
+/// The name of a value. \pre the table has it
+template <class Value, std::size_t n>
+[[nodiscard]] constexpr std::string_view name_of(const std::array<Named<Value>, n>& table,
+                                                 Value value) {
+  std::size_t i = 0;
+  while (i + 1 < n && table[i].value != value) {
+    ++i;
+  }
+  return table[i].name;
+}
+
+/// What the library takes; see options.hpp.
+inline constexpr Range kPurityToleranceRange{0.0, 0.1};
+inline constexpr Range kOvershootBoundRange{0.0, 1.0};
+
+/// Extensions that the mesh and field files of difmesh::io have, in lower case.
+inline constexpr std::array<std::string_view, 4> kMeshExtensions{".ply", ".obj", ".off", ".stl"};
+inline constexpr std::array<std::string_view, 3> kFieldExtensions{".npy", ".nrrd", ".nhdr"};
+
+/// Whether a path has one of these extensions, in any case of letters.
+[[nodiscard]] bool has_extension(const std::string& path,
+                                 std::span<const std::string_view> extensions);
+/// The words with commas between.
+[[nodiscard]] std::string joined(std::span<const std::string_view> words);
+
+}  // namespace difmesh::cli

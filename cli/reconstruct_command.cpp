@@ -1,0 +1,322 @@
+// difmesh reconstruct: a field in, its surface out.
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "command.hpp"
+#include "difmesh/error.hpp"
+#include "difmesh/io/mesh_file.hpp"
+#include "difmesh/reconstruct.hpp"
+#include "field_input.hpp"
+#include "json.hpp"
+#include "long_call.hpp"
+#include "names.hpp"
+#include "output_file.hpp"
+#include "parse.hpp"
+#include "stopwatch.hpp"
+#include "text.hpp"
+
+namespace difmesh::cli {
+namespace {
+
+constexpr const char* kDescription =
+    "Reconstructs the surface of a field of volume fractions.\n"
+    "\n"
+    "Reads FIELD (.npy, .nrrd, .nhdr or raw) and writes MESH; its extension (.ply, .obj, .off or\n"
+    ".stl) tells the format. The mesh is manifold for every field. The defaults are meant to be "
+    "used.\n";
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  difmesh reconstruct drops.nrrd -o drops.ply\n"
+    "  difmesh reconstruct drops.npy -o drops.stl --spacing 0.01 --boundary mirror\n"
+    "  difmesh reconstruct tank.npy -o tank.ply --spacing 0.01,0.01,0.02 \\\n"
+    "      --boundary periodic,periodic,open,open,empty,open --report tank.json\n"
+    "  difmesh reconstruct scan.raw -o scan.ply --raw-dims 256,256,128 --raw-type uint8\n"
+    "\n"
+    "Ctrl-C stops the work and leaves no file (exit code 130). Files that are being written "
+    "already\n"
+    "are finished; a second Ctrl-C stops at once.\n";
+
+constexpr std::int64_t kMostThreads = 4096;
+
+struct Request {
+  FieldInput input;
+  std::string mesh_path;
+  std::string report_path;
+  Options options;
+  bool quiet = false;
+
+  [[nodiscard]] bool with_summary() const { return !quiet && report_path != "-"; }
+};
+
+struct Seconds {
+  double read = 0.0;
+  double reconstruct = 0.0;
+  double write = 0.0;
+};
+
+/// The volumes are those of the same body: no side counts as full beyond the domain.
+std::optional<double> volume_difference(const Request& request, const Report& report) {
+  const Sides& sides = request.options.sides;
+  const bool full_beyond = std::find(sides.begin(), sides.end(), Side::full) != sides.end();
+  if (!report.closed || full_beyond || !(report.fraction_volume > 0.0)) {
+    return std::nullopt;
+  }
+  return (report.enclosed_volume - report.fraction_volume) / report.fraction_volume;
+}
+
+Json options_json(const Options& options) {
+  Json sides = Json::array();
+  for (const Side side : options.sides) {
+    sides.push_back(name_of(kSides, side));
+  }
+  return {{"placement", name_of(kPlacements, options.placement)},
+          {"normals", name_of(kNormals, options.normals)},
+          {"boundary", sides},
+          {"purity_tolerance", options.purity_tolerance},
+          {"overshoot_bound", options.overshoot_bound},
+          {"vertex_normals", options.vertex_normals},
+          {"threads", options.threads}};
+}
+
+Json report_json(const Request& request, const LoadedField& field, const Reconstruction& result,
+                 const Seconds& seconds) {
+  const Report& report = result.report;
+  const std::optional<double> difference = volume_difference(request, report);
+  Json json = json_head();
+  json["field"] = {{"path", request.input.path},
+                   {"type", name_of(kScalarTypes, field.file.type)},
+                   {"dims", field.grid.dims},
+                   {"origin", field.grid.origin},
+                   {"origin_from", name_of(field.origin_from)},
+                   {"spacing", field.grid.spacing},
+                   {"spacing_from", name_of(field.spacing_from)},
+                   {"cells", report.cells},
+                   {"interfacial_cells", report.interfacial_cells},
+                   {"clamped_cells", report.clamped_cells},
+                   {"largest_overshoot", report.largest_overshoot},
+                   {"fraction_volume", report.fraction_volume}};
+  json["options"] = options_json(request.options);
+  json["mesh"] = {{"path", request.mesh_path},
+                  {"vertices", result.mesh.positions.size()},
+                  {"triangles", result.mesh.triangles.size()},
+                  {"closed", report.closed},
+                  {"enclosed_volume", report.closed ? Json(report.enclosed_volume) : Json()},
+                  {"volume_difference", difference ? Json(*difference) : Json()}};
+  json["work"] = {{"planes", report.planes},
+                  {"height_function_cells", report.height_function_cells},
+                  {"gradient_free_cells", report.gradient_free_cells},
+                  {"solved_edges", report.solved_edges},
+                  {"newton_steps_mean", report.newton_steps_mean},
+                  {"newton_steps_max", report.newton_steps_max},
+                  {"non_monotone_edges", report.non_monotone_edges}};
+  json["seconds"] = {{"read", seconds.read},
+                     {"classify", report.seconds.classify},
+                     {"normals", report.seconds.normals},
+                     {"count", report.seconds.count},
+                     {"vertices", report.seconds.vertices},
+                     {"triangles", report.seconds.triangles},
+                     {"reconstruct", report.seconds.total}};
+  return json;
+}
+
+void warn(const std::string& message) {
+  std::cerr << "difmesh: warning: " << one_line(message) << '\n';
+}
+
+void print_warnings(const Request& request, const Reconstruction& result) {
+  const Report& report = result.report;
+  if (report.clamped_cells > 0) {
+    warn("'" + request.input.path + "': clamped " + count_of(report.clamped_cells, "cell") +
+         " outside [0, 1], the farthest by " + rounded(report.largest_overshoot, 6));
+  }
+  if (result.mesh.triangles.empty()) {
+    warn("'" + request.input.path + "': no fraction crosses 1/2, the mesh is empty");
+  }
+}
+
+void print_summary(const Request& request, const LoadedField& field, const Reconstruction& result,
+                   const Seconds& seconds) {
+  const Report& report = result.report;
+  const std::optional<double> difference = volume_difference(request, report);
+  std::ostream& out = std::cout;
+  print_fact(out, "mesh", request.mesh_path);
+  print_fact(
+      out, "cells",
+      dims_text(field.grid.dims) + ", interfacial: " + std::to_string(report.interfacial_cells));
+  print_fact(out, "origin", with_source(field.grid.origin, field.origin_from));
+  print_fact(out, "spacing", with_source(field.grid.spacing, field.spacing_from));
+  print_fact(out, "vertices", std::to_string(result.mesh.positions.size()));
+  print_fact(out, "triangles", std::to_string(result.mesh.triangles.size()));
+  print_fact(out, "closed", report.closed ? "yes" : "no, it ends at sides of the domain");
+  print_fact(out, "fraction volume",
+             rounded(report.fraction_volume, 10) + "  (sum of fraction x cell volume)");
+  print_fact(out, "enclosed volume",
+             report.closed ? rounded(report.enclosed_volume, 10) : "none, the mesh is not closed");
+  if (difference) {
+    print_fact(
+        out, "difference",
+        (*difference < 0.0 ? "" : "+") + rounded(*difference, 3) + " of the fraction volume");
+  }
+  print_fact(out, "seconds",
+             rounded(seconds.read + seconds.reconstruct + seconds.write, 3) + "  (read " +
+                 rounded(seconds.read, 3) + ", reconstruct " + rounded(seconds.reconstruct, 3) +
+                 ", write " + rounded(seconds.write, 3) + ")");
+}
+
+/// The library knows cells and lengths, not files.
+Reconstruction reconstruct_file(const Request& request, const LoadedField& field,
+                                LongCall& long_call) {
+  Options options = request.options;
+  options.progress = long_call.progress();
+  try {
+    return reconstruct(field.file.view(), field.grid, options);
+  } catch (const Error& error) {
+    throw Error(error.code(), "'" + request.input.path + "': " + error.what());
+  }
+}
+
+void check_outputs(const Request& request) {
+  if (!has_extension(request.mesh_path, kMeshExtensions)) {
+    throw CLI::ValidationError("--output", "'" + request.mesh_path +
+                                               "' has an unknown extension; meshes are " +
+                                               joined(kMeshExtensions));
+  }
+  check_output("--output", request.mesh_path, request.input.path);
+  if (!request.report_path.empty()) {
+    check_output("--report", request.report_path, request.input.path);
+    check_output("--report", request.report_path, request.mesh_path);
+  }
+}
+
+void run(const Request& request) {
+  check_outputs(request);
+  Stopwatch watch;
+  Seconds seconds;
+  const LoadedField field = load_field(request.input);
+  seconds.read = watch.lap();
+
+  LongCall long_call("reconstructing", request.quiet);
+  const Reconstruction result = reconstruct_file(request, field, long_call);
+  seconds.reconstruct = watch.lap();
+  long_call.done();
+
+  std::optional<OutputFile> report;
+  if (!request.report_path.empty()) {
+    report.emplace(request.report_path, to_text(report_json(request, field, result, seconds)));
+  }
+  write_mesh(request.mesh_path, result.mesh);
+  if (report) {
+    report->commit();
+  }
+  seconds.write = watch.lap();
+
+  if (!request.quiet) {
+    print_warnings(request, result);
+  }
+  if (request.with_summary()) {
+    print_summary(request, field, result, seconds);
+  }
+}
+
+void add_method_options(CLI::App& command, Request& request) {
+  Options& options = request.options;
+  command
+      .add_option_function<std::string>(
+          "--placement",
+          [&options](const std::string& text) {
+            options.placement = parse_name("--placement", text, kPlacements);
+          },
+          "Where vertices are put on the edges between cell centres:\n"
+          "  plic      from planes in both cells, second-order accurate (default)\n"
+          "  manson    from the two fractions, in four cases\n"
+          "  linear    where interpolation gives 1/2: plain marching cubes\n"
+          "  midpoint  in the middle")
+      ->option_text("NAME");
+  command
+      .add_option_function<std::string>(
+          "--normals",
+          [&options](const std::string& text) {
+            options.normals = parse_name("--normals", text, kNormals);
+          },
+          "How normals of cells are estimated, for plic and --vertex-normals:\n"
+          "  height_function  heights over 3 x 3 columns, else myc (default)\n"
+          "  myc              mixed Youngs-centred, 3 x 3 x 3 cells\n"
+          "  youngs           weighted gradient, 3 x 3 x 3 cells")
+      ->option_text("NAME");
+  command
+      .add_option_function<std::string>(
+          "--boundary",
+          [&options](const std::string& text) { options.sides = parse_sides("--boundary", text); },
+          "What lies beyond the sides of the domain; one name for all sides, or\n"
+          "six: xlo,xhi,ylo,yhi,zlo,zhi\n"
+          "  open      unknown: the surface ends at the side (default)\n"
+          "  mirror    its mirror image: the surface meets the side at right angles\n"
+          "  periodic  the opposite side again; both sides of an axis together\n"
+          "  empty     nothing: the surface is closed there\n"
+          "  full      material: the surface of the empty part is closed there")
+      ->option_text("SIDES");
+}
+
+void add_limit_options(CLI::App& command, Request& request) {
+  Options& options = request.options;
+  command
+      .add_option_function<std::string>(
+          "--purity-tolerance",
+          [&options](const std::string& text) {
+            options.purity_tolerance =
+                parse_number("--purity-tolerance", text, kPurityToleranceRange);
+          },
+          "A fraction so close to 0 or 1 counts as empty or full, 0 to 0.1.\n"
+          "Default: 1e-6")
+      ->option_text("T");
+  command
+      .add_option_function<std::string>(
+          "--overshoot-bound",
+          [&options](const std::string& text) {
+            options.overshoot_bound = parse_number("--overshoot-bound", text, kOvershootBoundRange);
+          },
+          "Fractions so far outside [0, 1] are clamped, farther ones are an\n"
+          "error, 0 to 1. Default: 0.1")
+      ->option_text("B");
+  command
+      .add_option_function<std::string>(
+          "--threads",
+          [&options](const std::string& text) {
+            options.threads = static_cast<int>(parse_integer("--threads", text, 0, kMostThreads));
+          },
+          "Number of threads; 0, the default: as many as the machine has.\n"
+          "The mesh does not depend on it")
+      ->option_text("N");
+}
+
+}  // namespace
+
+void add_reconstruct_command(CLI::App& program) {
+  const auto request = std::make_shared<Request>();
+  CLI::App& command = *program.add_subcommand("reconstruct", kDescription);
+  command.footer(kFooter);
+  command.add_option("FIELD", request->input.path, "Field of fractions (.npy, .nrrd, .nhdr, raw)")
+      ->required();
+  command.add_option("-o,--output", request->mesh_path, "Mesh to write (.ply, .obj, .off, .stl)")
+      ->required()
+      ->option_text("MESH");
+  add_method_options(command, *request);
+  add_limit_options(command, *request);
+  command.add_flag("--vertex-normals", request->options.vertex_normals,
+                   "Write a normal with each vertex (not in .stl)");
+  command
+      .add_option("--report", request->report_path,
+                  "Write facts about field, mesh and work as JSON to FILE;\n"
+                  "- is standard output, in place of the summary")
+      ->option_text("FILE");
+  command.add_flag("--quiet", request->quiet, "Print nothing but errors");
+  add_field_options(command, request->input);
+  command.callback([request] { run(*request); });
+}
+
+}  // namespace difmesh::cli

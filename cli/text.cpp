@@ -1,0 +1,64 @@
+#include "text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <ostream>
+
+namespace difmesh::cli {
+namespace {
+
+constexpr std::size_t kNameColumn = 18;
+
+}  // namespace
+
+std::string exact(double number) {
+  std::array<char, 32> digits{};
+  const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), number);
+  return {digits.data(), result.ptr};
+}
+
+std::string exact(const Vec3& vector) {
+  return exact(vector[0]) + " " + exact(vector[1]) + " " + exact(vector[2]);
+}
+
+std::string rounded(double number, int digits) {
+  std::array<char, 64> text{};
+  const auto result = std::to_chars(text.data(), text.data() + text.size(), number,
+                                    std::chars_format::general, digits);
+  return {text.data(), result.ptr};
+}
+
+std::string rounded(const Vec3& vector, int digits) {
+  return rounded(vector[0], digits) + " " + rounded(vector[1], digits) + " " +
+         rounded(vector[2], digits);
+}
+
+std::string cell_text(const Index3& cell) {
+  std::string text = "(";  // g++ 12 warns of "(" + std::string&&, falsely
+  text += std::to_string(cell[0]) + ", " + std::to_string(cell[1]) + ", " +
+          std::to_string(cell[2]) + ")";
+  return text;
+}
+
+std::string dims_text(const Index3& dims) {
+  return std::to_string(dims[0]) + " x " + std::to_string(dims[1]) + " x " +
+         std::to_string(dims[2]);
+}
+
+std::string count_of(std::int64_t count, std::string_view thing) {
+  return std::to_string(count) + " " + std::string(thing) + (count == 1 ? "" : "s");
+}
+
+std::string one_line(std::string text) {
+  const auto is_control = [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; };
+  std::replace_if(text.begin(), text.end(), is_control, ' ');
+  return text;
+}
+
+void print_fact(std::ostream& out, std::string_view name, std::string_view value) {
+  const std::size_t gap = name.size() < kNameColumn ? kNameColumn - name.size() : 1;
+  out << name << std::string(gap, ' ') << value << '\n';
+}
+
+}  // namespace difmesh::cli
