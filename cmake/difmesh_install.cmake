@@ -1,16 +1,36 @@
-# The CMake package: find_package(difmesh) gives difmesh::core and, where built, difmesh::io.
+# The CMake package: find_package(difmesh) gives difmesh::core and the other parts that were built.
 
 include(CMakePackageConfigHelpers)
 set(difmesh_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/difmesh)
 
-configure_package_config_file(
+# What users of each static library have to find again, as arguments of find_package().
+set(difmesh_core_needs "")
+if(DIFMESH_WITH_TBB)
+  list(APPEND difmesh_core_needs "TBB CONFIG COMPONENTS tbb")
+endif()
+set(difmesh_io_needs "ZLIB" "OpenMesh CONFIG")
+set(difmesh_metrics_needs "embree 3 CONFIG" "TBB CONFIG COMPONENTS tbb")
+
+# One export set per part, so that users find only the dependencies of the parts that they ask for.
+get_property(difmesh_parts GLOBAL PROPERTY difmesh_parts)
+set(difmesh_needs "")
+foreach(part IN LISTS difmesh_parts)
+  if(NOT DEFINED difmesh_${part}_needs)
+    message(FATAL_ERROR "difmesh_install.cmake does not say what the part '${part}' needs")
+  endif()
+  string(APPEND difmesh_needs "set(difmesh_${part}_needs \"${difmesh_${part}_needs}\")\n")
+  install(EXPORT difmesh_${part}_targets NAMESPACE difmesh:: DESTINATION ${difmesh_package_dir})
+endforeach()
+
+# Not at the top of the build folder: find_package() looks there, and would find no targets.
+set(difmesh_generated_dir ${PROJECT_BINARY_DIR}/package)
+configure_file(
   ${CMAKE_CURRENT_LIST_DIR}/difmesh-config.cmake.in
-  ${PROJECT_BINARY_DIR}/difmesh-config.cmake
-  INSTALL_DESTINATION ${difmesh_package_dir})
+  ${difmesh_generated_dir}/difmesh-config.cmake @ONLY)
 write_basic_package_version_file(
-  ${PROJECT_BINARY_DIR}/difmesh-config-version.cmake COMPATIBILITY SameMinorVersion)
-install(EXPORT difmesh_targets NAMESPACE difmesh:: DESTINATION ${difmesh_package_dir})
+  ${difmesh_generated_dir}/difmesh-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES
-  ${PROJECT_BINARY_DIR}/difmesh-config.cmake
-  ${PROJECT_BINARY_DIR}/difmesh-config-version.cmake
+  ${difmesh_generated_dir}/difmesh-config.cmake
+  ${difmesh_generated_dir}/difmesh-config-version.cmake
   DESTINATION ${difmesh_package_dir})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/difmesh)

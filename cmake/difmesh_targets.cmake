@@ -22,7 +22,8 @@ function(difmesh_set_up target)
   endif()
 endfunction()
 
-# A library of the project: difmesh_<part>, seen by users as difmesh::<part>, installed.
+# A library of the project: difmesh_<part>, seen by users as difmesh::<part>, installed as
+# the package's component <part>. Parts are to be added in the order of their dependence.
 function(difmesh_add_library part)
   add_library(difmesh_${part} STATIC ${ARGN})
   add_library(difmesh::${part} ALIAS difmesh_${part})
@@ -31,7 +32,8 @@ function(difmesh_add_library part)
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   set_target_properties(difmesh_${part} PROPERTIES EXPORT_NAME ${part})
-  install(TARGETS difmesh_${part} EXPORT difmesh_targets
+  set_property(GLOBAL APPEND PROPERTY difmesh_parts ${part})
+  install(TARGETS difmesh_${part} EXPORT difmesh_${part}_targets
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
     FILES_MATCHING PATTERN "*.hpp")
