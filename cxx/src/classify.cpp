@@ -269,9 +269,18 @@ class BeyondFiller {
   }
   void set_ends(std::int64_t j, std::int64_t k) {
     if (nodes_.first()[0] == 0) {
-      set_node({0, j, k});
+      set_end(0, j, k);
     }
-    set_node({nodes_.last()[0], j, k});
+    set_end(nodes_.last()[0], j, k);
+  }
+  void set_end(std::int64_t i, std::int64_t j, std::int64_t k) {
+    const std::int64_t cell = cell_of(0, i);
+    const std::int64_t from = cell - field_.block.offset[0] + 1;
+    if (is_cell(cell) && is_own(0, from) && is_own(1, j) && is_own(2, k)) {
+      nodes_.set({i, j, k}, nodes_.test({from, j, k}));
+    } else {
+      set_node({i, j, k});
+    }
   }
   // A whole row: constant beyond `empty` and `full`, else that of the cells it stands for.
   void fill_row(std::int64_t j, std::int64_t k) {

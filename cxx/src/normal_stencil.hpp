@@ -1,6 +1,8 @@
 #pragma once
 // Normals of interfacial cells from their neighbourhood.
 
+#include <array>
+
 #include "block_field.hpp"
 #include "difmesh/normals.hpp"
 
@@ -41,8 +43,10 @@ class NormalStencil {
                                  Vec3& sum) const;
   [[nodiscard]] bool column_at_side(const Index3& foot, std::size_t axis, double sense,
                                     double& height) const;
-  template <class Value>
-  [[nodiscard]] bool is_column(int count, const Value& value, double& height) const;
+  // Fractions from the material's end, zeros behind the last. One more than nine, for pairs.
+  static constexpr int kColumn = 10;
+  using Column = std::array<double, kColumn>;
+  [[nodiscard]] bool is_column(const Column& column, int count, double& height) const;
 
   const BlockField& field_;
   Normals normals_;

@@ -1,13 +1,17 @@
 #include "difmesh/normals.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <string>
 
 #include "difmesh/error.hpp"
 #include "normal_stencil.hpp"
 #include "plane_fit.hpp"
 #include "unit_plane.hpp"
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 namespace difmesh {
 namespace detail {
@@ -258,8 +262,11 @@ bool NormalStencil<T>::add_heights(const Index3& cell, std::size_t axis, double 
     for (const int u : {1, 0, 2}) {
       for (const int v : {1, 0, 2}) {
         const T* end = centre + (u - 1) * step[other] + (v - 1) * step[third];
-        const auto value = [&](int n) { return fraction_of(end[n * along]); };
-        if (!is_column(2 * kReach + 1, value, height[u][v])) {
+        Column column{};
+        for (int n = 0; n <= 2 * kReach; ++n) {
+          column[static_cast<std::size_t>(n)] = fraction_of(end[n * along]);
+        }
+        if (!is_column(column, 2 * kReach + 1, height[u][v])) {
           return false;
         }
       }
@@ -300,19 +307,34 @@ bool NormalStencil<T>::add_heights(const Index3& cell, std::size_t axis, double 
 // Sums nine cells, or what the domain has of them, from the material's end. Consistent: full cells, then
 // interfacial ones, then empty ones, at least one full and one empty.
 template <class T>
-template <class Value>
-bool NormalStencil<T>::is_column(int count, const Value& value, double& height) const {
+bool NormalStencil<T>::is_column(const Column& column, int count, double& height) const {
   unsigned full = 0;
   unsigned not_empty = 0;
-  double sum = 0.0;
-  for (int n = 0; n < count; ++n) {
-    const double fraction = value(n);
-    full |= static_cast<unsigned>(fraction >= full_) << n;
-    not_empty |= static_cast<unsigned>(fraction > empty_) << n;
-    sum += fraction;
+  double even = 0.0;
+  double odd = 0.0;
+#ifdef __SSE2__
+  __m128d sums = _mm_setzero_pd();
+  for (int n = 0; n < kColumn; n += 2) {
+    const __m128d pair = _mm_loadu_pd(column.data() + n);
+    full |= static_cast<unsigned>(_mm_movemask_pd(_mm_cmpge_pd(pair, _mm_set1_pd(full_)))) << n;
+    not_empty |= static_cast<unsigned>(_mm_movemask_pd(_mm_cmpgt_pd(pair, _mm_set1_pd(empty_))))
+                 << n;
+    sums = _mm_add_pd(sums, pair);
   }
-  height = sum;
-  // Both must run from the first cell on without a gap.
+  even = _mm_cvtsd_f64(sums);
+  odd = _mm_cvtsd_f64(_mm_unpackhi_pd(sums, sums));
+#else
+  for (int n = 0; n < kColumn; n += 2) {
+    for (int m = n; m < n + 2; ++m) {
+      const double fraction = column[static_cast<std::size_t>(m)];
+      full |= static_cast<unsigned>(fraction >= full_) << m;
+      not_empty |= static_cast<unsigned>(fraction > empty_) << m;
+      (m == n ? even : odd) += fraction;
+    }
+  }
+#endif
+  height = even + odd;
+  // Both must run from the first cell on without a gap, and end before the last.
   return (full & 1U) != 0 && (full & (full + 1U)) == 0 && (not_empty & (not_empty + 1U)) == 0 &&
          not_empty >> (count - 1) == 0;
 }
@@ -324,16 +346,18 @@ bool NormalStencil<T>::column_at_side(const Index3& foot, std::size_t axis, doub
   for (std::size_t t = 0; t < 3; ++t) {
     resolved[t] = field_.axes[t].resolve(foot[t]);
   }
-  double fractions[2 * kReach + 1];
+  Column column{};
   int count = 0;
   for (std::int64_t offset = -kReach; offset <= kReach; ++offset) {
     resolved[axis] = field_.axes[axis].resolve(foot[axis] + offset);
     if (resolved[axis] != kMissing) {
-      fractions[count++] = field_.fraction(resolved);
+      column[static_cast<std::size_t>(count++)] = field_.fraction(resolved);
     }
   }
-  return is_column(
-      count, [&](int n) { return fractions[sense > 0.0 ? n : count - 1 - n]; }, height);
+  if (sense < 0.0) {
+    std::reverse(column.begin(), column.begin() + count);
+  }
+  return is_column(column, count, height);
 }
 
 template class NormalStencil<float>;
