@@ -625,6 +625,24 @@ TEST_SUITE("reconstruct: sides") {
     CHECK(boundary > 200);
   }
 
+  TEST_CASE("open: smears of a solver make no film on the face") {
+    for (const double smear : {1e-5, 1e-4, 1e-3, 9e-3}) {
+      for (const bool full : {false, true}) {
+        const OwnedField field({6, 6, 6}, full ? 1.0 - smear : smear);
+        Options options;
+        options.sides[4] = full ? Side::full : Side::empty;
+        CHECK(reconstruct(field.view(), unit_grid(field.dims), options).mesh.triangles.empty());
+        OwnedField around = blob({24, 24, 24});
+        for (double& value : around.values) {
+          value = std::clamp(value, smear, 1.0 - smear);
+        }
+        options.sides = {Side::periodic, Side::periodic, Side::open,
+                         Side::mirror,   Side::open,     Side::empty};
+        CHECK(reconstruct(around.view(), unit_grid(around.dims), options).report.closed);
+      }
+    }
+  }
+
   TEST_CASE("empty: the surface stays within the domain") {
     const OwnedField field = white_noise({8, 9, 10}, 9);
     for (const Placement placement : {Placement::linear, Placement::manson, Placement::plic}) {

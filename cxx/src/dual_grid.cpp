@@ -5,6 +5,10 @@
 namespace difmesh::detail {
 namespace {
 
+// Fractions this close to 0 or 1 along an open face, with no crossed edge at their cell, are no film on the
+// face: solvers leave such smears, and a plane fitted to them is worth nothing.
+constexpr double kFilm = 0.01;
+
 // Domain faces, to the bit, for nodes on open and mirror sides; else cell centres or their
 // continuation.
 double node_coordinate(const BlockField& field, std::size_t axis, std::int64_t index) {
@@ -130,9 +134,32 @@ UnitPlane DualGrid::cell_plane(const Index3& node, const NodeOrigin& origin) con
 }
 
 bool DualGrid::is_extended(const Index3& node, const NodeOrigin& origin) const {
-  return extend_ && !origin.constant && origin.on_face() && planes_.has(origin.cell) &&
-         planes_.at(origin.cell).has_normal() &&
-         field_->is_interfacial(cell_fraction(node, origin));
+  if (!extend_ || origin.constant || !origin.on_face() || !planes_.has(origin.cell) ||
+      !planes_.at(origin.cell).has_normal()) {
+    return false;
+  }
+  const double fraction = cell_fraction(node, origin);
+  return field_->is_interfacial(fraction) &&
+         ((fraction > kFilm && fraction < 1.0 - kFilm) || has_crossed_edge(origin.cell));
+}
+
+// Asks the field, not the flags: these do not know of edges that leave the block.
+bool DualGrid::has_crossed_edge(const Index3& cell) const {
+  const bool inside = nodes_.test(cell);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Index3 resolved;
+    for (std::size_t t = 0; t < 3; ++t) {
+      resolved[t] = field_->axes[t].resolve(cell[t] - 1 + field_->block.offset[t]);
+    }
+    for (const int step : {-1, 1}) {
+      const std::int64_t index = cell[axis] - 1 + field_->block.offset[axis] + step;
+      resolved[axis] = field_->axes[axis].resolve(index);
+      if (resolved[axis] != kMissing && (field_->fraction(resolved) >= 0.5) != inside) {
+        return true;
+      }
+    }
+  }
+  return false;
 }
 
 double DualGrid::node_fraction(const Index3& node) const {

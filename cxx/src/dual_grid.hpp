@@ -51,6 +51,7 @@ class DualGrid {
 
  private:
   void settle_around(const Index3& cell);
+  [[nodiscard]] bool has_crossed_edge(const Index3& cell) const;
 
   const BlockField* field_;
   NodeBits nodes_;

@@ -196,7 +196,9 @@ class VertexPlacer {
     }
     const bool inside = grid_.nodes().test(node);
     const UnitPlane traced = trace(plane, origin.face);
-    if ((crossed_cells || grid_.is_extended(node, origin)) && (traced.a >= 0.0) == inside) {
+    const bool serves =
+        crossed_cells || grid_.field().is_interfacial(grid_.cell_fraction(node, origin));
+    if (serves && (traced.a >= 0.0) == inside) {
       return traced.has_normal() ? traced : UnitPlane::pure(inside);
     }
     return UnitPlane::pure(inside);
