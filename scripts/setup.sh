@@ -10,6 +10,7 @@ packages=(
   libtbb-dev                      # the core's threads
   zlib1g-dev libopenmesh-dev      # readers and writers of files
   libcli11-dev nlohmann-json3-dev # the program
+  libembree-dev                   # distances between surfaces
   doctest-dev                     # tests
   libcgal-dev                     # tests: independent checks of meshes
   clang-format git                # tests: formatting

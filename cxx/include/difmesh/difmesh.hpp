@@ -4,6 +4,7 @@
 
 #include "difmesh/error.hpp"
 #include "difmesh/field_view.hpp"
+#include "difmesh/fractions_from_function.hpp"
 #include "difmesh/fractions_from_mesh.hpp"
 #include "difmesh/grid.hpp"
 #include "difmesh/measure.hpp"
@@ -12,5 +13,6 @@
 #include "difmesh/options.hpp"
 #include "difmesh/plane.hpp"
 #include "difmesh/reconstruct.hpp"
+#include "difmesh/shapes.hpp"
 #include "difmesh/version.hpp"
 #include "difmesh/weld.hpp"

@@ -1,0 +1,214 @@
+#include "triangle_tree.hpp"
+
+#include <embree3/rtcore.h>
+#include <tbb/info.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <string>
+
+#include "difmesh/error.hpp"
+
+namespace difmesh::detail {
+namespace {
+
+// Silent, and without the 128 MB that it would set aside for subdivision surfaces.
+constexpr const char* kDeviceSettings = "verbose=0,tessellation_cache_size=0";
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+// A query point is rounded to float32 by at most 2^-24 of each coordinate.
+constexpr double kPointRounding = 0x1p-23;
+// Distances from boxes, their squares and those of the radius take some eight more roundings.
+constexpr double kDistanceRounding = 1.0 + 0x1p-20;
+// Keeps squares clear of the denormal numbers.
+constexpr double kLeastRadius = 0x1p-60;
+
+float below(double x) {
+  return std::nextafter(static_cast<float>(x), -kInfinity);
+}
+float above(double x) {
+  return std::nextafter(static_cast<float>(x), kInfinity);
+}
+
+/// Embree is in parallel by oneTBB even where the library is not.
+int arena_size([[maybe_unused]] int threads) {
+#ifdef DIFMESH_WITH_TBB
+  return threads > 0 ? std::min(threads, tbb::info::default_concurrency())
+                     : tbb::task_arena::automatic;
+#else
+  return 1;
+#endif
+}
+
+/// A box that holds the triangle for sure.
+void set_bounds(const Corners& corners, RTCBounds& bounds) {
+  Vec3 low = corners[0];
+  Vec3 high = corners[0];
+  for (const Vec3& corner : corners) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], corner[axis]);
+      high[axis] = std::max(high[axis], corner[axis]);
+    }
+  }
+  bounds = {below(low[0]),  below(low[1]),  below(low[2]),  0.0F,
+            above(high[0]), above(high[1]), above(high[2]), 0.0F};
+}
+
+/// The radius within which all boxes have to be visited to find all triangles within `distance` of
+/// the centre, exact distances and float64 ones alike.
+float search_radius(double distance, const Vec3& centre, double slack) {
+  return above((distance + kPointRounding * length(centre) + slack) * kDistanceRounding +
+               kLeastRadius);
+}
+
+RTCPointQuery query_at(const Vec3& centre, float radius) {
+  RTCPointQuery query{};
+  query.x = static_cast<float>(centre[0]);
+  query.y = static_cast<float>(centre[1]);
+  query.z = static_cast<float>(centre[2]);
+  query.radius = radius;
+  return query;
+}
+
+/// The search for the nearest triangle. Whatever the order of the visits, those at the least
+/// distance are all among them, so the outcome is the same.
+struct NearestSearch {
+  const TriangleTree& tree;
+  const Vec3& point;
+  const Vec3& centre;  ///< the point as the boxes see it
+  double slack;
+  TriangleTree::Nearest best;
+
+  /// Whether the triangle is the best so far.
+  bool visit(std::uint32_t triangle) {
+    const Vec3 way = closest_on_triangle(tree.corners(triangle, point));
+    const double distance2 = squared_length(way);
+    if (distance2 > best.distance2 || (distance2 == best.distance2 && triangle >= best.triangle)) {
+      return false;
+    }
+    best = {triangle, way, distance2};
+    return true;
+  }
+  [[nodiscard]] float radius() const {
+    return search_radius(std::sqrt(best.distance2), centre, slack);
+  }
+};
+
+bool visit_nearest(RTCPointQueryFunctionArguments* arguments) {
+  auto& search = *static_cast<NearestSearch*>(arguments->userPtr);
+  if (!search.visit(arguments->primID)) {
+    return false;
+  }
+  // Never wider than before: Embree forbids it, and the radius hardly grows by rounding alone.
+  arguments->query->radius = std::min(arguments->query->radius, search.radius());
+  return true;
+}
+
+struct Collection {
+  std::vector<std::uint32_t>& triangles;
+  bool out_of_memory = false;
+};
+
+bool visit_all(RTCPointQueryFunctionArguments* arguments) {
+  auto& collection = *static_cast<Collection*>(arguments->userPtr);
+  try {
+    collection.triangles.push_back(arguments->primID);
+  } catch (const std::bad_alloc&) {
+    // Embree would swallow the exception.
+    collection.out_of_memory = true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void TriangleTree::ReleaseDevice::operator()(RTCDeviceTy* device) const noexcept {
+  rtcReleaseDevice(device);
+}
+void TriangleTree::ReleaseScene::operator()(RTCSceneTy* scene) const noexcept {
+  rtcReleaseScene(scene);
+}
+
+TriangleTree::TriangleTree(const SurfaceView& surface, int threads) : surface_(surface) {
+  // The name of no triangle is kept free by Embree.
+  if (surface.triangles.size() >= std::numeric_limits<std::uint32_t>::max()) {
+    throw Error(ErrorCode::too_large, "distance: the " + std::string(surface.name) + " has " +
+                                          std::to_string(surface.triangles.size()) +
+                                          " triangles; 2^32 - 2 are possible");
+  }
+  const Box box = box_of(surface.positions);
+  double half_side = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double low = surface.scale * box.low[axis];
+    const double high = surface.scale * box.high[axis];
+    centre_[axis] = 0.5 * low + 0.5 * high;
+    half_side = std::max(half_side, 0.5 * high - 0.5 * low);
+  }
+  slack_ = 0x1p-40 * half_side;
+  device_.reset(rtcNewDevice(kDeviceSettings));
+  throw_failure("start");
+  // Embree takes its threads from the arena that it is called in.
+  tbb::task_arena arena(arena_size(threads));
+  arena.execute([this] { build(); });
+  throw_failure("build its tree");
+}
+
+void TriangleTree::build() {
+  scene_.reset(rtcNewScene(device_.get()));
+  const RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(surface_.triangles.size()));
+  rtcSetGeometryUserData(geometry, this);
+  rtcSetGeometryBoundsFunction(
+      geometry,
+      [](const RTCBoundsFunctionArguments* arguments) {
+        const auto& tree = *static_cast<const TriangleTree*>(arguments->geometryUserPtr);
+        set_bounds(tree.corners(arguments->primID, tree.centre_), *arguments->bounds_o);
+      },
+      nullptr);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene_.get(), geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(scene_.get());
+}
+
+void TriangleTree::throw_failure(const char* what) const {
+  const RTCError code = rtcGetDeviceError(device_.get());
+  if (code == RTC_ERROR_OUT_OF_MEMORY) {
+    throw std::bad_alloc();
+  }
+  if (code != RTC_ERROR_NONE) {
+    throw Error(ErrorCode::invalid_argument, std::string("distance: Embree could not ") + what +
+                                                 "; its error code is " + std::to_string(code));
+  }
+}
+
+TriangleTree::Nearest TriangleTree::nearest(const Vec3& point, std::uint32_t guess) const {
+  const Vec3 centre = minus(point, centre_);
+  const Vec3 way = closest_on_triangle(corners(guess, point));
+  NearestSearch search{*this, point, centre, slack_, {guess, way, squared_length(way)}};
+  RTCPointQuery query = query_at(centre, search.radius());
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(scene_.get(), &query, &context, visit_nearest, &search);
+  return search.best;
+}
+
+void TriangleTree::collect(const Vec3& point, const Vec3& way, double radius,
+                           std::vector<std::uint32_t>& triangles) const {
+  triangles.clear();
+  const Vec3 centre = plus(minus(point, centre_), way);
+  Collection collection{triangles};
+  RTCPointQuery query = query_at(centre, search_radius(radius, centre, slack_));
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(scene_.get(), &query, &context, visit_all, &collection);
+  if (collection.out_of_memory) {
+    throw std::bad_alloc();
+  }
+  std::sort(triangles.begin(), triangles.end());
+}
+
+}  // namespace difmesh::detail
