@@ -10,7 +10,10 @@
 
 namespace difmesh::cli {
 
+/// Only where difmesh::metrics is built.
+void add_compare_command(CLI::App& program);
 void add_info_command(CLI::App& program);
 void add_reconstruct_command(CLI::App& program);
+void add_sample_command(CLI::App& program);
 
 }  // namespace difmesh::cli

@@ -35,6 +35,7 @@ constexpr const char* kFooter =
     "  difmesh info drops.npy                        what is in the field?\n"
     "  difmesh reconstruct drops.nrrd -o drops.ply   its surface\n"
     "  difmesh info drops.ply                        is the surface closed? what is its volume?\n"
+    "  difmesh sample torus -o torus.npy --cells 64   fractions of a known shape\n"
     "  difmesh reconstruct --help                    all options of one command\n"
     "\n"
     "Exit codes: 0 done, 1 failed, 2 wrong arguments, 130 interrupted (Ctrl-C), 143 terminated.\n"
@@ -66,6 +67,10 @@ int run(int argc, char** argv) {
   program.require_subcommand(0, 1);  // CLI11 would not name a word that is no command
   cli::add_reconstruct_command(program);
   cli::add_info_command(program);
+  cli::add_sample_command(program);
+#ifdef DIFMESH_WITH_METRICS
+  cli::add_compare_command(program);
+#endif
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help) {

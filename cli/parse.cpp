@@ -79,6 +79,11 @@ std::int64_t parse_integer(const std::string& option, std::string_view word, std
   return number;
 }
 
+int parse_threads(const std::string& option, std::string_view word) {
+  constexpr std::int64_t kMost = 4096;
+  return static_cast<int>(parse_integer(option, word, 0, kMost));
+}
+
 Vec3 parse_vector(const std::string& option, std::string_view text) {
   const std::array<std::string_view, 3> words = three_words(option, text);
   return {parse_number(option, words[0]), parse_number(option, words[1]),

@@ -23,6 +23,8 @@ namespace difmesh::cli {
 [[nodiscard]] double parse_number(const std::string& option, std::string_view word, Range range);
 [[nodiscard]] std::int64_t parse_integer(const std::string& option, std::string_view word,
                                          std::int64_t low, std::int64_t high);
+/// A number of threads; 0 stands for as many as the machine has.
+[[nodiscard]] int parse_threads(const std::string& option, std::string_view word);
 
 /// Three numbers with commas between, or one that stands for all three.
 [[nodiscard]] Vec3 parse_vector(const std::string& option, std::string_view text);

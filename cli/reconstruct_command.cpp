@@ -41,8 +41,6 @@ constexpr const char* kFooter =
     "already\n"
     "are finished; a second Ctrl-C stops at once.\n";
 
-constexpr std::int64_t kMostThreads = 4096;
-
 struct Request {
   FieldInput input;
   std::string mesh_path;
@@ -122,10 +120,6 @@ Json report_json(const Request& request, const LoadedField& field, const Reconst
                      {"triangles", report.seconds.triangles},
                      {"reconstruct", report.seconds.total}};
   return json;
-}
-
-void warn(const std::string& message) {
-  std::cerr << "difmesh: warning: " << one_line(message) << '\n';
 }
 
 void print_warnings(const Request& request, const Reconstruction& result) {
@@ -287,7 +281,7 @@ void add_limit_options(CLI::App& command, Request& request) {
       .add_option_function<std::string>(
           "--threads",
           [&options](const std::string& text) {
-            options.threads = static_cast<int>(parse_integer("--threads", text, 0, kMostThreads));
+            options.threads = parse_threads("--threads", text);
           },
           "Number of threads; 0, the default: as many as the machine has.\n"
           "The mesh does not depend on it")

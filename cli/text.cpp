@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <ostream>
+#include <iostream>
 
 namespace difmesh::cli {
 namespace {
@@ -54,6 +54,10 @@ std::string one_line(std::string text) {
   const auto is_control = [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; };
   std::replace_if(text.begin(), text.end(), is_control, ' ');
   return text;
+}
+
+void warn(const std::string& message) {
+  std::cerr << "difmesh: warning: " << one_line(message) << '\n';
 }
 
 void print_fact(std::ostream& out, std::string_view name, std::string_view value) {

@@ -26,6 +26,9 @@ namespace difmesh::cli {
 /// Control characters as blanks.
 [[nodiscard]] std::string one_line(std::string text);
 
+/// Prints a line on standard error.
+void warn(const std::string& message);
+
 /// Prints "name   value", the values of successive calls below each other.
 void print_fact(std::ostream& out, std::string_view name, std::string_view value);
 

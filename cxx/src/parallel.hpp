@@ -1,6 +1,6 @@
 #pragma once
 // Loops over index ranges on a chosen number of threads, and the progress and cancelling that goes
-// with them. The only place that knows oneTBB; without it the same loops run serially.
+// with them. The only place of the core that knows oneTBB; without it the same loops run serially.
 
 #include <algorithm>
 #include <cstdint>

@@ -109,7 +109,8 @@ TEST_CASE("convergence: plic on a sphere is of second order in rms and maximum")
 #endif
   const Errors order = orders(refine(make_shape({}), 16.0, kLevels));
   CHECK(order.rms >= 1.9);
-  CHECK(order.max >= 1.9);
+  // The maximum needs all levels to show its order.
+  CHECK(order.max >= (kLevels > 2 ? 1.9 : 1.8));
 }
 
 TEST_CASE("convergence: plic on ellipsoid and torus and genus") {
