@@ -252,15 +252,7 @@ void add_compare_command(CLI::App& program) {
       .add_option("--json", request->json_path,
                   "Write the facts as JSON to FILE instead of text; - is standard output")
       ->option_text("FILE");
-  command
-      .add_option_function<std::string>(
-          "--threads",
-          [request](const std::string& text) {
-            request->threads = parse_threads("--threads", text);
-          },
-          "Number of threads; 0, the default: as many as the machine has.\n"
-          "The distances do not depend on it")
-      ->option_text("N");
+  add_threads_option(command, "The distances do", request->threads);
   add_shape_options(command, request->shape);
   command.callback([request] { run(*request); });
 }

@@ -79,9 +79,17 @@ std::int64_t parse_integer(const std::string& option, std::string_view word, std
   return number;
 }
 
-int parse_threads(const std::string& option, std::string_view word) {
+void add_threads_option(CLI::App& command, const std::string& result, int& threads) {
   constexpr std::int64_t kMost = 4096;
-  return static_cast<int>(parse_integer(option, word, 0, kMost));
+  command
+      .add_option_function<std::string>(
+          "--threads",
+          [&threads](const std::string& text) {
+            threads = static_cast<int>(parse_integer("--threads", text, 0, kMost));
+          },
+          "Number of threads; 0, the default: as many as the machine has.\n" + result +
+              " not depend on it")
+      ->option_text("N");
 }
 
 Vec3 parse_vector(const std::string& option, std::string_view text) {

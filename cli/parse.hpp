@@ -23,8 +23,9 @@ namespace difmesh::cli {
 [[nodiscard]] double parse_number(const std::string& option, std::string_view word, Range range);
 [[nodiscard]] std::int64_t parse_integer(const std::string& option, std::string_view word,
                                          std::int64_t low, std::int64_t high);
-/// A number of threads; 0 stands for as many as the machine has.
-[[nodiscard]] int parse_threads(const std::string& option, std::string_view word);
+/// Adds --threads N to a command, whose `result` the help says does not depend on it. `threads` must live as
+/// long as the command; 0 stands for as many as the machine has.
+void add_threads_option(CLI::App& command, const std::string& result, int& threads);
 
 /// Three numbers with commas between, or one that stands for all three.
 [[nodiscard]] Vec3 parse_vector(const std::string& option, std::string_view text);

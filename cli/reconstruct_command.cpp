@@ -277,15 +277,7 @@ void add_limit_options(CLI::App& command, Request& request) {
           "Fractions so far outside [0, 1] are clamped, farther ones are an\n"
           "error, 0 to 1. Default: 0.1")
       ->option_text("B");
-  command
-      .add_option_function<std::string>(
-          "--threads",
-          [&options](const std::string& text) {
-            options.threads = parse_threads("--threads", text);
-          },
-          "Number of threads; 0, the default: as many as the machine has.\n"
-          "The mesh does not depend on it")
-      ->option_text("N");
+  add_threads_option(command, "The mesh does", options.threads);
 }
 
 }  // namespace

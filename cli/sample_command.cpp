@@ -272,15 +272,7 @@ void add_sample_command(CLI::App& program) {
           },
           "Elements of FIELD: float32 or float64 (default)")
       ->option_text("TYPE");
-  command
-      .add_option_function<std::string>(
-          "--threads",
-          [request](const std::string& text) {
-            request->threads = parse_threads("--threads", text);
-          },
-          "Number of threads; 0, the default: as many as the machine has.\n"
-          "The field does not depend on it")
-      ->option_text("N");
+  add_threads_option(command, "The field does", request->threads);
   command.add_flag("--quiet", request->quiet, "Print nothing but errors");
   add_grid_options(command, request->grid);
   add_shape_options(command, request->shape);
