@@ -8,7 +8,7 @@ set(difmesh_core_needs "")
 if(DIFMESH_WITH_TBB)
   list(APPEND difmesh_core_needs "TBB CONFIG COMPONENTS tbb")
 endif()
-set(difmesh_io_needs "ZLIB" "OpenMesh CONFIG")
+set(difmesh_io_needs "ZLIB")
 set(difmesh_metrics_needs "embree 3 CONFIG" "TBB CONFIG COMPONENTS tbb")
 
 # One export set per part, so that users find only the dependencies of the parts that they ask for.

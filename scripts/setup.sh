@@ -8,11 +8,11 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build           # to build
   libtbb-dev                      # the core's threads
-  zlib1g-dev libopenmesh-dev      # readers and writers of files
+  zlib1g-dev                      # readers and writers of files
   libcli11-dev nlohmann-json3-dev # the program
   libembree-dev                   # distances between surfaces
   doctest-dev                     # tests
-  libcgal-dev                     # tests: independent checks of meshes
+  libcgal-dev libopenmesh-dev     # tests: independent checks of meshes
   clang-format git                # tests: formatting
 )
 if [ "${1:-}" = "--bench" ]; then

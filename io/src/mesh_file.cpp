@@ -75,7 +75,7 @@ void check_mesh(const std::filesystem::path& path, const Mesh& mesh, MeshFormat 
   check_vectors(path, mesh.positions, "the position",
                 stl ? std::numeric_limits<float>::max() : std::numeric_limits<double>::max());
   check_vectors(path, mesh.normals, "the normal", std::numeric_limits<double>::max());
-  if (stl && mesh.triangles.size() > std::numeric_limits<std::int32_t>::max()) {
+  if (stl && mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max()) {
     fail(ErrorCode::too_large, path,
          std::to_string(mesh.triangles.size()) + " triangles are too many for STL");
   }

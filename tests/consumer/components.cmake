@@ -43,7 +43,7 @@ function(request request)
 endfunction()
 
 request("CONFIG REQUIRED" HAS ${outer_parts})
-request("0.1 CONFIG REQUIRED COMPONENTS core" HAS core WITHOUT ZLIB OpenMesh)
+request("0.1 CONFIG REQUIRED COMPONENTS core" HAS core WITHOUT ZLIB)
 request("0.2 CONFIG" SAYS "compatible with requested version \"0.2\"")
 request("CONFIG REQUIRED COMPONENTS soap"
   SAYS "Reason.*this installation has no component 'soap'; it was built with: core")
@@ -54,7 +54,7 @@ else()
   request("CONFIG REQUIRED COMPONENTS core" HAS core WITHOUT TBB)
 endif()
 
-set(needs_io ZLIB OpenMesh)
+set(needs_io ZLIB)
 set(needs_metrics embree)
 foreach(part IN ITEMS io metrics)
   if(NOT part IN_LIST outer_parts)

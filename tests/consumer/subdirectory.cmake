@@ -6,7 +6,7 @@ include(${CMAKE_CURRENT_LIST_DIR}/consumer.cmake)
 
 # Only what the variant needs may be looked for.
 set(options -D DIFMESH_WITH_TBB=ON)
-set(unneeded ZLIB OpenMesh CLI11 nlohmann_json doctest CGAL benchmark VTK)
+set(unneeded ZLIB CLI11 nlohmann_json doctest CGAL benchmark VTK)
 if(VARIANT STREQUAL "serial")
   set(options -D DIFMESH_WITH_TBB=OFF)
   list(APPEND unneeded TBB)

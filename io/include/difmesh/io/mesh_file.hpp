@@ -31,11 +31,10 @@ struct WriteMeshOptions {
 /// as the same float64.
 /// \throw Error invalid_argument if an index is out of range, normals or edge_ids are neither empty
 ///   nor one per vertex, or the extension is unknown; invalid_value if a position or normal is not
-///   finite, or beyond the range of float32 for STL; too_large for more than 2^31 - 1 triangles in
+///   finite, or beyond the range of float32 for STL; too_large for more than 2^32 - 1 triangles in
 ///   STL; file_write with the path and the system's reason.
 /// Cost: linear; 1.2 million triangles take some 0.05 s as PLY, 0.2 s as OFF, OBJ or STL.
-/// Thread safety: concurrent calls are safe; those for STL take turns, and OpenMesh's log is off
-/// meanwhile.
+/// Thread safety: concurrent calls are safe.
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh,
                 const WriteMeshOptions& options = {});
 
