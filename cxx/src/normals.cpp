@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
-#include "difmesh/error.hpp"
 #include "normal_stencil.hpp"
 #include "plane_fit.hpp"
-#include "unit_plane.hpp"
 
 #ifdef __SSE2__
 #include <emmintrin.h>
@@ -366,45 +363,5 @@ template class NormalStencil<std::uint8_t>;
 template class NormalStencil<std::uint16_t>;
 
 }  // namespace detail
-
-void cell_planes(const FieldView& field, const Grid& grid, std::span<const Index3> cells,
-                 const Options& options, std::span<CellPlane> planes) {
-  if (cells.size() != planes.size()) {
-    throw Error(ErrorCode::invalid_argument, "cell_planes: " + std::to_string(cells.size()) +
-                                                 " cells but room for " +
-                                                 std::to_string(planes.size()) + " planes");
-  }
-  const detail::BlockField block =
-      detail::make_block_field(field, {{0, 0, 0}, grid.dims, {}, {}}, grid, options);
-  detail::with_scalar(field.type, [&](auto type) {
-    const detail::NormalStencil<decltype(type)> stencil(block, options.normals);
-    for (std::size_t n = 0; n < cells.size(); ++n) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (cells[n][axis] < 0 || cells[n][axis] >= grid.dims[axis]) {
-          throw Error(ErrorCode::invalid_argument, "cell_planes: cell number " + std::to_string(n) +
-                                                       " of the list is outside "
-                                                       "the grid");
-        }
-      }
-      const detail::UnitNormal unit = stencil(cells[n]);
-      planes[n].source = unit.source;
-      planes[n].plane = {};
-      if (unit.source == NormalSource::none) {
-        continue;
-      }
-      Vec3 normal;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        normal[axis] = unit.m[axis] / grid.spacing[axis];
-      }
-      const double length = std::hypot(normal[0], normal[1], normal[2]);
-      const double a =
-          detail::cube_offset(unit.m[0], unit.m[1], unit.m[2], block.fraction(cells[n]));
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        planes[n].plane.normal[axis] = normal[axis] / length;
-      }
-      planes[n].plane.offset = a / length;
-    }
-  });
-}
 
 }  // namespace difmesh

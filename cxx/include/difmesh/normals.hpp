@@ -6,6 +6,7 @@
 #include <span>
 
 #include "difmesh/field_view.hpp"
+#include "difmesh/mesh.hpp"
 #include "difmesh/options.hpp"
 #include "difmesh/plane.hpp"
 
@@ -31,9 +32,17 @@ struct CellPlane {
 /// \throw Error as reconstruct(); invalid_argument where a cell lies outside the grid or the sizes
 ///   differ. Values outside [0,1] are clamped; the field is not validated beyond the cells read,
 ///   whose NaN count as 0.
-/// Cost: some 0.1-0.3 µs per cell. Thread safety: concurrent calls are safe.
+/// Cost: some 0.1-0.3 µs per cell; on options.threads threads. Thread safety: concurrent calls are
+/// safe.
 /// Source: MYC: Aulisa et al., J. Comput. Phys. 225 (2007) 2301; heights: docs/method.md.
 void cell_planes(const FieldView& field, const Grid& grid, std::span<const Index3> cells,
                  const Options& options, std::span<CellPlane> planes);
+
+/// The interfacial cells of a field, tolerance < γ < 1 - tolerance, in the order z, y, x. The whole
+/// field is checked.
+/// \throw Error as reconstruct()
+/// Cost: two passes over the field. Thread safety: concurrent calls are safe.
+[[nodiscard]] Array<Index3> interfacial_cells(const FieldView& field, const Grid& grid,
+                                              const Options& options = {});
 
 }  // namespace difmesh
