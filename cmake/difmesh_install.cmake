@@ -3,13 +3,27 @@
 include(CMakePackageConfigHelpers)
 set(difmesh_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/difmesh)
 
-# What users of each static library have to find again, as arguments of find_package().
+# Of each part: the parts that it builds on, and what users of a static library have to find again, as
+# arguments of find_package().
+set(difmesh_core_parts "")
+set(difmesh_io_parts core)
+set(difmesh_metrics_parts core)
 set(difmesh_core_needs "")
 if(DIFMESH_WITH_TBB)
   list(APPEND difmesh_core_needs "TBB CONFIG COMPONENTS tbb")
 endif()
 set(difmesh_io_needs "ZLIB")
 set(difmesh_metrics_needs "embree 3 CONFIG" "TBB CONFIG COMPONENTS tbb")
+# libdifmesh.so brings all it needs.
+set(difmesh_capi_parts "")
+set(difmesh_capi_needs "")
+set(difmesh_capi_static_parts core)
+foreach(part IN ITEMS io metrics)
+  if(TARGET difmesh::${part})
+    list(APPEND difmesh_capi_static_parts ${part})
+  endif()
+endforeach()
+set(difmesh_capi_static_needs "")
 
 # One export set per part, so that users find only the dependencies of the parts that they ask for.
 get_property(difmesh_parts GLOBAL PROPERTY difmesh_parts)
@@ -18,6 +32,7 @@ foreach(part IN LISTS difmesh_parts)
   if(NOT DEFINED difmesh_${part}_needs)
     message(FATAL_ERROR "difmesh_install.cmake does not say what the part '${part}' needs")
   endif()
+  string(APPEND difmesh_needs "set(difmesh_${part}_parts \"${difmesh_${part}_parts}\")\n")
   string(APPEND difmesh_needs "set(difmesh_${part}_needs \"${difmesh_${part}_needs}\")\n")
   install(EXPORT difmesh_${part}_targets NAMESPACE difmesh:: DESTINATION ${difmesh_package_dir})
 endforeach()

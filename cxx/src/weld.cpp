@@ -27,18 +27,24 @@ IdRange id_range(const Grid& grid) {
   return {row, layer, layer * nodes(grid.dims[2])};
 }
 
-void check(std::span<const Mesh> meshes, const IdRange& ids) {
+void check(std::span<const Mesh* const> meshes, const IdRange& ids) {
+  std::size_t first = meshes.size();  // with vertices
   for (std::size_t m = 0; m < meshes.size(); ++m) {
-    const Mesh& mesh = meshes[m];
+    if (meshes[m] == nullptr) {
+      fail(m, "is NULL");
+    }
+    const Mesh& mesh = *meshes[m];
     if (mesh.edge_ids.size() != mesh.positions.size()) {
       fail(m, "has no edge_ids");
     }
     if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) {
       fail(m, "has normals for some vertices only");
     }
-    if (!mesh.positions.empty() && mesh.normals.empty() != meshes[0].normals.empty() &&
-        !meshes[0].positions.empty()) {
-      fail(m, "differs from mesh 0 in having normals or not");
+    if (!mesh.positions.empty()) {
+      first = std::min(first, m);
+      if (mesh.normals.empty() != meshes[first]->normals.empty()) {
+        fail(m, "differs from mesh " + std::to_string(first) + " in having normals or not");
+      }
     }
     for (const std::uint64_t id : mesh.edge_ids) {
       if (id >= ids.end) {
@@ -75,13 +81,22 @@ struct PlacedTriangle {
 }  // namespace
 
 Mesh weld(std::span<const Mesh> meshes, const Grid& grid) {
+  std::vector<const Mesh*> pointers;
+  pointers.reserve(meshes.size());
+  for (const Mesh& mesh : meshes) {
+    pointers.push_back(&mesh);
+  }
+  return weld_pointers(pointers, grid);
+}
+
+Mesh weld_pointers(std::span<const Mesh* const> meshes, const Grid& grid) {
   validate(grid);
   const IdRange range = id_range(grid);
   check(meshes, range);
 
   Mesh result;
-  for (const Mesh& mesh : meshes) {
-    result.edge_ids.insert(result.edge_ids.end(), mesh.edge_ids.begin(), mesh.edge_ids.end());
+  for (const Mesh* mesh : meshes) {
+    result.edge_ids.insert(result.edge_ids.end(), mesh->edge_ids.begin(), mesh->edge_ids.end());
   }
   std::sort(result.edge_ids.begin(), result.edge_ids.end());
   result.edge_ids.erase(std::unique(result.edge_ids.begin(), result.edge_ids.end()),
@@ -95,7 +110,8 @@ Mesh weld(std::span<const Mesh> meshes, const Grid& grid) {
   result.positions.resize(result.edge_ids.size());
   std::vector<PlacedTriangle> triangles;
   std::vector<std::uint32_t> number;
-  for (const Mesh& mesh : meshes) {
+  for (const Mesh* part : meshes) {
+    const Mesh& mesh = *part;
     if (!mesh.normals.empty()) {
       result.normals.resize(result.edge_ids.size());
     }

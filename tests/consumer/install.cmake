@@ -22,9 +22,21 @@ set(expected
   ${package_dir}/difmesh-config.cmake)
 foreach(part IN LISTS outer_parts)
   list(APPEND expected
-    ${outer_libdir}/libdifmesh_${part}.a
     ${package_dir}/difmesh_${part}_targets.cmake
     ${package_dir}/difmesh_${part}_targets-${config_suffix}.cmake)
+  if(part STREQUAL "capi")
+    list(APPEND expected
+      ${outer_includedir}/difmesh/difmesh.h
+      ${outer_libdir}/libdifmesh.so
+      ${outer_libdir}/libdifmesh.so.0
+      ${outer_libdir}/libdifmesh.so.${outer_version}
+      ${outer_libdir}/pkgconfig/difmesh.pc)
+    continue()
+  elseif(part STREQUAL "capi_static")
+    list(APPEND expected ${outer_libdir}/libdifmesh.a)
+    continue()
+  endif()
+  list(APPEND expected ${outer_libdir}/libdifmesh_${part}.a)
   set(include_dir ${outer_source_dir}/${part}/include)
   if(part STREQUAL "core")
     set(include_dir ${outer_source_dir}/cxx/include)
@@ -48,7 +60,7 @@ endif()
 
 # Text must not name the folders of this build, nor anything the parts of CGAL under the GPL.
 foreach(file IN LISTS installed)
-  if(file MATCHES "\\.(hpp|cmake)$")
+  if(file MATCHES "\\.(h|hpp|cmake|pc)$")
     file(READ "${first_prefix}/${file}" text)
     foreach(folder IN ITEMS ${outer_source_dir} ${outer_build_dir} ${first_prefix})
       string(FIND "${text}" "${folder}" at)

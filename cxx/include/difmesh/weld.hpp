@@ -18,5 +18,7 @@ namespace difmesh {
 ///   or only some meshes have normals; too_large beyond 2^32 - 1 vertices.
 /// Cost: O(n log n) in the size of the meshes. Thread safety: pure function.
 [[nodiscard]] Mesh weld(std::span<const Mesh> meshes, const Grid& grid);
+/// The same for meshes that lie apart; none may be NULL.
+[[nodiscard]] Mesh weld_pointers(std::span<const Mesh* const> meshes, const Grid& grid);
 
 }  // namespace difmesh

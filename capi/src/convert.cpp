@@ -1,0 +1,170 @@
+#include "convert.hpp"
+
+#include <array>
+#include <cstring>
+
+namespace difmesh::capi {
+namespace {
+
+constexpr char kAxisNames[] = "xyz";
+// Three sums of offsets this large stay below 2^63.
+constexpr std::int64_t kMostOffset = std::int64_t{1} << 60;
+
+/// The C++ constant of a C one: 0 is the default, the others follow from 1 on.
+template <class Enum, std::size_t count>
+Enum to_choice(std::int32_t value, Enum default_value, const std::array<Enum, count>& choices,
+               const std::string& name) {
+  if (value == 0) {
+    return default_value;
+  }
+  if (value < 0 || value > static_cast<std::int32_t>(count)) {
+    fail_argument(name + " is " + std::to_string(value) + "; 0 to " + std::to_string(count) +
+                  " are possible");
+  }
+  return choices[static_cast<std::size_t>(value - 1)];
+}
+
+constexpr std::array kPlacements{Placement::midpoint, Placement::linear, Placement::manson,
+                                 Placement::plic};
+constexpr std::array kNormals{Normals::youngs, Normals::myc, Normals::height_function};
+constexpr std::array kSides{Side::open, Side::mirror, Side::periodic, Side::empty, Side::full};
+constexpr std::array kTypes{ScalarType::float32, ScalarType::float64, ScalarType::uint8,
+                            ScalarType::uint16};
+
+dif_field read_field_struct(const dif_field* field) {
+  required(field, "field");
+  dif_field defaults{};
+  std::fill_n(defaults.spacing, 3, 1.0);
+  const dif_field given = read_struct(field, defaults, "field");
+  require_zero(given.reserved, "field");
+  return given;
+}
+
+/// \pre the dims are valid
+FieldView to_view(const dif_field& given) {
+  const ScalarType type = to_scalar_type(given.type);
+  if (given.data == nullptr) {
+    fail_argument("field: data is NULL");
+  }
+  if (reinterpret_cast<std::uintptr_t>(given.data) % static_cast<std::uintptr_t>(size_of(type)) !=
+      0) {
+    fail_argument("field: data is not aligned for elements of " + std::to_string(size_of(type)) +
+                  " bytes");
+  }
+  const FieldView view(given.data, type, to_index(given.dims), to_index(given.strides));
+  check_strides(view.dims, view.strides, size_of(type), "field");
+  return view;
+}
+
+}  // namespace
+
+bool to_bool(std::int32_t value, const char* name) {
+  if (value != 0 && value != 1) {
+    fail_argument(std::string(name) + " is " + std::to_string(value) + "; 0 and 1 are possible");
+  }
+  return value == 1;
+}
+
+void require_zero(std::int32_t reserved, const char* struct_name) {
+  if (reserved != 0) {
+    fail_argument(std::string(struct_name) + ": reserved must be 0, got " +
+                  std::to_string(reserved));
+  }
+}
+
+ScalarType to_scalar_type(std::int32_t type) {
+  if (type == 0) {
+    fail_argument("type is 0; DIF_FLOAT32, DIF_FLOAT64, DIF_UINT8 and DIF_UINT16 are possible");
+  }
+  return to_choice(type, ScalarType::float64, kTypes, "type");
+}
+
+std::int32_t from_scalar_type(ScalarType type) {
+  return static_cast<std::int32_t>(type) + 1;
+}
+static_assert(static_cast<int>(ScalarType::float32) + 1 == DIF_FLOAT32 &&
+              static_cast<int>(ScalarType::float64) + 1 == DIF_FLOAT64 &&
+              static_cast<int>(ScalarType::uint8) + 1 == DIF_UINT8 &&
+              static_cast<int>(ScalarType::uint16) + 1 == DIF_UINT16);
+
+Progress to_progress(dif_progress progress, void* user) {
+  if (progress == nullptr) {
+    return {};
+  }
+  return [progress, user](double share_done) { return progress(user, share_done) == 0; };
+}
+
+Index3 to_index(const std::int64_t (&from)[3]) {
+  return {from[0], from[1], from[2]};
+}
+
+Vec3 to_vec(const double (&from)[3]) {
+  return {from[0], from[1], from[2]};
+}
+
+std::span<const Vec3> to_points(const double* numbers, std::int64_t count) {
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  return {reinterpret_cast<const Vec3*>(numbers), to_size(count)};
+}
+
+std::size_t to_size(std::int64_t count) {
+  return static_cast<std::size_t>(count);
+}
+
+void check_strides(const Index3& dims, const Index3& strides, std::int64_t element_bytes,
+                   const char* name) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::int64_t most = kMostOffset / element_bytes / dims[axis];
+    if (strides[axis] > most || strides[axis] < -most) {
+      fail_argument(std::string(name) + ": the stride in " + kAxisNames[axis] + ", " +
+                    std::to_string(strides[axis]) + ", leads beyond any memory");
+    }
+  }
+}
+
+Field to_field(const dif_field* field) {
+  const dif_field given = read_field_struct(field);
+  const Grid grid{to_index(given.dims), to_vec(given.origin), to_vec(given.spacing)};
+  validate(grid);
+  return {to_view(given), grid};
+}
+
+FieldView to_view(const dif_field* field) {
+  const dif_field given = read_field_struct(field);
+  validate(Grid{.dims = to_index(given.dims)});
+  return to_view(given);
+}
+
+Grid to_grid(const dif_grid* grid) {
+  required(grid, "grid");
+  dif_grid defaults{};
+  std::fill_n(defaults.spacing, 3, 1.0);
+  const dif_grid given = read_struct(grid, defaults, "grid");
+  const Grid result{to_index(given.dims), to_vec(given.origin), to_vec(given.spacing)};
+  validate(result);
+  return result;
+}
+
+Options to_options(const dif_options* options) {
+  dif_options defaults{};
+  dif_options_init(&defaults, sizeof defaults);
+  const dif_options given = read_struct(options, defaults, "options");
+  require_zero(given.reserved, "options");
+  Options result;
+  result.placement = to_choice(given.placement, result.placement, kPlacements, "placement");
+  result.normals = to_choice(given.normals, result.normals, kNormals, "normals");
+  for (std::size_t side = 0; side < 6; ++side) {
+    result.sides[side] =
+        to_choice(given.sides[side], Side::open, kSides, "sides[" + std::to_string(side) + "]");
+  }
+  result.vertex_normals = to_bool(given.vertex_normals, "vertex_normals");
+  result.edge_ids = to_bool(given.edge_ids, "edge_ids");
+  result.purity_tolerance = given.purity_tolerance;
+  result.overshoot_bound = given.overshoot_bound;
+  result.clearance = given.clearance;
+  result.threads = given.threads;
+  result.progress = to_progress(given.progress, given.progress_user);
+  return result;
+}
+
+}  // namespace difmesh::capi

@@ -1,0 +1,47 @@
+#pragma once
+// From the structs of C, checked, to those of C++.
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "boundary.hpp"
+#include "difmesh/error.hpp"
+#include "difmesh/field_view.hpp"
+#include "difmesh/grid.hpp"
+#include "difmesh/options.hpp"
+
+namespace difmesh::capi {
+
+/// \throw Error invalid_argument, naming the option
+[[nodiscard]] bool to_bool(std::int32_t value, const char* name);
+void require_zero(std::int32_t reserved, const char* struct_name);
+[[nodiscard]] ScalarType to_scalar_type(std::int32_t type);
+[[nodiscard]] std::int32_t from_scalar_type(ScalarType type);
+[[nodiscard]] Progress to_progress(dif_progress progress, void* user);
+
+[[nodiscard]] Index3 to_index(const std::int64_t (&from)[3]);
+[[nodiscard]] Vec3 to_vec(const double (&from)[3]);
+/// Three numbers each, as many as `count` says. \pre checked by required_array()
+[[nodiscard]] std::span<const Vec3> to_points(const double* numbers, std::int64_t count);
+
+/// A field and the grid that it covers.
+struct Field {
+  FieldView view;
+  Grid grid;
+};
+/// Checks the struct; the grid, and strides whose offsets would overflow. \throw Error, Failure
+[[nodiscard]] Field to_field(const dif_field* field);
+/// The same without origin and spacing.
+[[nodiscard]] FieldView to_view(const dif_field* field);
+[[nodiscard]] Grid to_grid(const dif_grid* grid);
+[[nodiscard]] Options to_options(const dif_options* options);
+
+/// Strides whose offsets, in bytes, do not fit into 62 bits are refused.
+void check_strides(const Index3& dims, const Index3& strides, std::int64_t element_bytes,
+                   const char* name);
+
+/// A number of elements as the caller's array has to have them, in `bytes` each.
+[[nodiscard]] std::size_t to_size(std::int64_t count);
+
+}  // namespace difmesh::capi
