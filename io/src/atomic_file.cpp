@@ -88,10 +88,10 @@ void AtomicFile::open_temporary() {
     name += '.';
     name += std::to_string(random());
     name += ".part";
-    const std::filesystem::path path = target_.parent_path() / name;
+    std::filesystem::path path = target_.parent_path() / name;
     descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ >= 0) {
-      temporary_ = path;
+      temporary_ = std::move(path);  // cannot fail, or the file would be left behind
       return;
     }
     if (errno != EEXIST) {
