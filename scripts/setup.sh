@@ -13,6 +13,7 @@ packages=(
   libembree-dev                   # distances between surfaces
   doctest-dev                     # tests
   libcgal-dev libopenmesh-dev     # tests: independent checks of meshes
+  abigail-tools                   # tests: the C interface keeps its ABI
   clang-format git                # tests: formatting
 )
 if [ "${1:-}" = "--bench" ]; then
