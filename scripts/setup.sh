@@ -3,6 +3,7 @@
 # nothing where all is there. Needs root or sudo.
 #   setup.sh            build, tests and demo
 #   setup.sh --bench    the benchmarks as well (Google Benchmark, VTK)
+#   setup.sh --fuzz     the search for bad inputs as well (clang's libFuzzer)
 set -euo pipefail
 
 packages=(
@@ -18,6 +19,10 @@ packages=(
 )
 if [ "${1:-}" = "--bench" ]; then
   packages+=(libbenchmark-dev libvtk9-dev)
+fi
+
+if [ "${1:-}" = "--fuzz" ]; then
+  packages+=(clang libclang-rt-14-dev)
 fi
 
 missing=()
