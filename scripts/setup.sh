@@ -4,6 +4,7 @@
 #   setup.sh            build, tests and demo
 #   setup.sh --bench    the benchmarks as well (Google Benchmark, VTK)
 #   setup.sh --fuzz     the search for bad inputs as well (clang's libFuzzer)
+#   setup.sh --tsan     what oneTBB is built with for ThreadSanitizer as well
 set -euo pipefail
 
 packages=(
@@ -23,6 +24,9 @@ fi
 
 if [ "${1:-}" = "--fuzz" ]; then
   packages+=(clang libclang-rt-14-dev)
+fi
+if [ "${1:-}" = "--tsan" ]; then
+  packages+=(dpkg-dev)
 fi
 
 missing=()
