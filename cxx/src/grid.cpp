@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string>
 
 #include "difmesh/error.hpp"
@@ -12,6 +13,9 @@ namespace {
 
 constexpr char kAxisNames[] = "xyz";
 constexpr std::int64_t kMaxDim = (std::int64_t{1} << 31) - 3;
+// Volumes of cells, and quotients of spacings, are far from the ends of float64's range.
+constexpr double kLeastSpacing = 0x1p-300;
+constexpr double kGreatestSpacing = 0x1p300;
 // Three edges start at each node, and ids are kept below 2^63.
 constexpr std::int64_t kMaxNodes = (std::int64_t{1} << 61);
 
@@ -30,6 +34,12 @@ void validate_axis(const Grid& grid, int axis) {
     throw Error(ErrorCode::invalid_grid, "spacing in " + axis_name(axis) + " is " +
                                              std::to_string(spacing) +
                                              "; it must be finite and greater than 0");
+  }
+  if (spacing < kLeastSpacing || spacing > kGreatestSpacing) {
+    std::ostringstream text;
+    text << "spacing in " << axis_name(axis) << " is " << spacing
+         << "; 2^-300 to 2^300 are possible";
+    throw Error(ErrorCode::invalid_grid, text.str());
   }
   if (!std::isfinite(grid.origin[a])) {
     throw Error(ErrorCode::invalid_grid, "origin in " + axis_name(axis) + " is not finite");

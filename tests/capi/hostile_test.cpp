@@ -162,6 +162,8 @@ std::vector<Case> field_cases() {
       CHANGED(f, field.spacing[0] = -1.0, kGrid, reconstruct),
       CHANGED(f, field.spacing[1] = kNaN, kGrid, reconstruct),
       CHANGED(f, field.spacing[1] = kInfinity, kGrid, reconstruct),
+      CHANGED(f, field.spacing[1] = 1e-309, kGrid, reconstruct),
+      CHANGED(f, field.spacing[1] = 1e91, kGrid, reconstruct),
       CHANGED(f, field.origin[2] = kNaN, kGrid, reconstruct),
       CHANGED(f, field.origin[2] = 1e300, kGrid, reconstruct),
       CHANGED(f, values.values[77] = kNaN, DIF_ERROR_INVALID_VALUE, reconstruct),

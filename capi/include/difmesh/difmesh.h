@@ -143,7 +143,7 @@ typedef struct dif_field {
   int64_t dims[3];    /* cells in x, y, z; >= 1 each */
   int64_t strides[3]; /* elements from a cell to the next one in x, y, z; may be 0 or negative */
   double origin[3];   /* low corner of cell (0, 0, 0) */
-  double spacing[3];  /* edges of a cell, > 0 */
+  double spacing[3];  /* edges of a cell, in [2^-300, 2^300] */
 } dif_field;
 
 /* Describes `dims[0]` x `dims[1]` x `dims[2]` cells that lie without gaps, x fastest, as in a C array
@@ -354,7 +354,7 @@ typedef struct dif_grid {
   uint64_t struct_size;
   int64_t dims[3];   /* cells in x, y, z; >= 1 each */
   double origin[3];  /* low corner of cell (0, 0, 0) */
-  double spacing[3]; /* edges of a cell, > 0 */
+  double spacing[3]; /* edges of a cell, in [2^-300, 2^300] */
 } dif_grid;
 
 /* Origin 0, spacing 1, which can be set afterwards. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */

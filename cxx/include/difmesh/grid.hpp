@@ -15,7 +15,7 @@ using Vec3 = std::array<double, 3>;          ///< (x,y,z)
 struct Grid {
   Index3 dims{0, 0, 0};         ///< cells in x, y, z; each >= 1, at most 2^31 - 3 each
   Vec3 origin{0.0, 0.0, 0.0};   ///< low corner of cell (0,0,0)
-  Vec3 spacing{1.0, 1.0, 1.0};  ///< dx, dy, dz; each finite and > 0, not necessarily equal
+  Vec3 spacing{1.0, 1.0, 1.0};  ///< dx, dy, dz; each in [2^-300, 2^300], not necessarily equal
 
   /// Position of the centre of cell (i,j,k); defined for indices outside the grid as well.
   [[nodiscard]] Vec3 cell_centre(const Index3& cell) const noexcept;
@@ -26,9 +26,9 @@ struct Grid {
 };
 
 /// Checks a grid before anything is allocated from it.
-/// \throw Error invalid_grid if a dim is < 1, a length is not finite or not > 0, or the spacing is so
-///   small against the origin that neighbouring nodes would coincide in float64 (< 2^-40 relative);
-///   too_large if three ids per node of the grid would overflow 63 bits.
+/// \throw Error invalid_grid if a dim is < 1, the origin is not finite, a spacing is outside its range
+///   or so small against the origin that neighbouring nodes would coincide in float64 (< 2^-40
+///   relative); too_large if three ids per node of the grid would overflow 63 bits.
 void validate(const Grid& grid);
 
 }  // namespace difmesh
