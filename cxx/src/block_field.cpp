@@ -4,6 +4,7 @@
 #include <string>
 
 #include "difmesh/error.hpp"
+#include "position_text.hpp"
 
 namespace difmesh::detail {
 namespace {
@@ -16,8 +17,8 @@ constexpr char kAxisNames[] = "xyz";
 
 void require_range(double value, double low, double high, const std::string& name) {
   if (!(value >= low && value <= high)) {
-    fail("options: " + name + " is " + std::to_string(value) + "; possible is " +
-         std::to_string(low) + " to " + std::to_string(high));
+    fail("options: " + name + " is " + rounded_text(value) + "; possible is " + rounded_text(low) +
+         " to " + rounded_text(high));
   }
 }
 

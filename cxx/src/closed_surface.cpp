@@ -73,7 +73,7 @@ std::vector<HalfEdge> sorted_half_edges(std::span<const std::uint32_t> first,
 
 std::string describe(std::span<const HalfEdge> uses, std::span<const Vec3> positions) {
   const auto end = [&](std::uint32_t vertex) {
-    return "vertex " + std::to_string(vertex) + " at " + to_text(positions[vertex]);
+    return "vertex " + std::to_string(vertex) + " at " + rounded_text(positions[vertex]);
   };
   const std::string edge = "the edge from " + end(uses[0].low) + " to " + end(uses[0].high);
   if (uses.size() == 1) {

@@ -31,8 +31,9 @@ double seconds_since(Clock::time_point start) {
 
 void check_tolerance(const char* name, double value) {
   if (!(value >= 1e-13 && value <= 1e-2)) {
-    throw Error(ErrorCode::invalid_argument, std::string(name) + " is " + detail::to_text(value) +
-                                                 "; 1e-13 to 1e-2 are possible");
+    throw Error(
+        ErrorCode::invalid_argument,
+        std::string(name) + " is " + detail::rounded_text(value) + "; 1e-13 to 1e-2 are possible");
   }
 }
 

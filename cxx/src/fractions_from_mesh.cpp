@@ -35,7 +35,7 @@ constexpr double kSnap = 0x1p-51;
 
 void check_options(const FractionsFromMeshOptions& options) {
   if (!(options.tolerance >= kLeastTolerance && options.tolerance <= kGreatestTolerance)) {
-    throw_invalid("tolerance must be within [1e-12, 0.25], got " + to_text(options.tolerance));
+    throw_invalid("tolerance must be within [1e-12, 0.25], got " + rounded_text(options.tolerance));
   }
 }
 
@@ -141,13 +141,14 @@ BlockResult fill_block(const Work& work, std::int64_t block, ColumnSums& sums, d
   if (block.fault.kind == ColumnFault::Kind::gap) {
     throw_invalid(
         "the mesh is open: the column of cells along x at j = " + std::to_string(cell[1]) +
-        ", k = " + std::to_string(cell[2]) + ", y = " + to_text(centre[1]) +
-        ", z = " + to_text(centre[2]) + ", has a gap of " + to_text(block.fault.value) +
-        " of its cross-section; the tolerance is " + to_text(tolerance));
+        ", k = " + std::to_string(cell[2]) + ", y = " + rounded_text(centre[1]) +
+        ", z = " + rounded_text(centre[2]) + ", has a gap of " + rounded_text(block.fault.value) +
+        " of its cross-section; the tolerance is " + rounded_text(tolerance));
   }
   throw_invalid("parts of the mesh overlap or are inside out: cell (" + std::to_string(cell[0]) +
                 ", " + std::to_string(cell[1]) + ", " + std::to_string(cell[2]) + ") at " +
-                to_text(centre) + " would have the fraction " + to_text(block.fault.value));
+                rounded_text(centre) + " would have the fraction " +
+                rounded_text(block.fault.value));
 }
 
 /// Fills the whole field. Faults are named in the order of memory, whoever found them first.

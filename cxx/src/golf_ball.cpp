@@ -52,12 +52,12 @@ void check(const ShapeOptions& options, double sag) {
     fail("dimples is " + std::to_string(options.dimples) + "; 1 to 5000 are possible");
   }
   if (!(rim > 0.0 && rim <= 0.5)) {
-    fail("dimple_radius is " + to_text(rim) + "; it must be greater than 0 and at most 0.5");
+    fail("dimple_radius is " + rounded_text(rim) + "; it must be greater than 0 and at most 0.5");
   }
   if (!(options.dimple_depth > sag && options.dimple_depth <= sag + rim)) {
-    fail("dimple_depth is " + to_text(options.dimple_depth) + "; with a dimple_radius of " +
-         to_text(rim) + " it must be greater than " + to_text(sag) + " and at most " +
-         to_text(sag + rim));
+    fail("dimple_depth is " + rounded_text(options.dimple_depth) + "; with a dimple_radius of " +
+         rounded_text(rim) + " it must be greater than " + rounded_text(sag) + " and at most " +
+         rounded_text(sag + rim));
   }
 }
 
@@ -150,10 +150,10 @@ GolfBallModel::GolfBallModel(const ShapeOptions& options) : radius_(options.radi
   const double half_angle = wider ? std::asin(ball / centre) : std::asin(rim);
   const double separation = least_angle(dimples_.directions());
   if (options.dimples > 1 && 2.0 * half_angle > separation) {
-    fail("dimples of radius " + to_text(rim) + " and depth " + to_text(options.dimple_depth) +
-         " meet: each takes up an angle of " + to_text(2.0 * half_angle) + ", but with " +
-         std::to_string(options.dimples) + " of them the closest axes are only " +
-         to_text(separation) + " apart");
+    fail("dimples of radius " + rounded_text(rim) + " and depth " +
+         rounded_text(options.dimple_depth) + " meet: each takes up an angle of " +
+         rounded_text(2.0 * half_angle) + ", but with " + std::to_string(options.dimples) +
+         " of them the closest axes are only " + rounded_text(separation) + " apart");
   }
   rim_radius_ = rim * radius_;
   rim_height_ = height * radius_;

@@ -7,6 +7,7 @@
 
 #include "difmesh/error.hpp"
 #include "difmesh/field_view.hpp"
+#include "position_text.hpp"
 
 namespace difmesh {
 namespace {
@@ -32,7 +33,7 @@ void validate_axis(const Grid& grid, int axis) {
   const double spacing = grid.spacing[a];
   if (!std::isfinite(spacing) || spacing <= 0.0) {
     throw Error(ErrorCode::invalid_grid, "spacing in " + axis_name(axis) + " is " +
-                                             std::to_string(spacing) +
+                                             detail::rounded_text(spacing) +
                                              "; it must be finite and greater than 0");
   }
   if (spacing < kLeastSpacing || spacing > kGreatestSpacing) {
@@ -48,8 +49,8 @@ void validate_axis(const Grid& grid, int axis) {
   const double largest = std::max(std::abs(grid.origin[a]), std::abs(grid.origin[a] + extent));
   if (!std::isfinite(extent) || !std::isfinite(largest) || spacing < largest * 0x1p-40) {
     throw Error(ErrorCode::invalid_grid,
-                "spacing in " + axis_name(axis) + " is " + std::to_string(spacing) +
-                    ", too small against coordinates of " + std::to_string(largest) +
+                "spacing in " + axis_name(axis) + " is " + detail::rounded_text(spacing) +
+                    ", too small against coordinates of " + detail::rounded_text(largest) +
                     ": cells could not be told apart in double precision");
   }
 }

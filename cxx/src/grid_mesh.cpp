@@ -74,7 +74,7 @@ void to_grid_units(const Grid& grid, std::span<const Vec3> positions, Array<Vec3
     const bool finite =
         std::isfinite(position[0]) && std::isfinite(position[1]) && std::isfinite(position[2]);
     throw_invalid(
-        "vertex " + std::to_string(v) + " at " + to_text(position) +
+        "vertex " + std::to_string(v) + " at " + rounded_text(position) +
         (finite ? " is 2^32 spacings or more away from the origin of the grid" : " is not finite"));
   }
 }
@@ -158,7 +158,7 @@ GridMesh checked_mesh(const Grid& grid, std::span<const Vec3> positions,
   mesh.volume = (rules.flip ? -1.0 : 1.0) * sums.volume6 / 6.0;
   if (mesh.volume < -kVolumeRounding * sums.terms6) {
     throw_invalid("the mesh is inside out: its volume is " +
-                  to_text(mesh.volume * grid.cell_volume()) +
+                  rounded_text(mesh.volume * grid.cell_volume()) +
                   (rules.flip ? "; leave out the option flip (--flip)"
                               : "; use the option flip (--flip) if its triangles are clockwise "
                                 "seen from outside"));

@@ -1,5 +1,5 @@
 #pragma once
-// How numbers and positions look in messages.
+// How numbers and positions look in messages. Not to_text(), which is what io has in this namespace.
 
 #include <array>
 #include <cstdio>
@@ -10,19 +10,19 @@
 namespace difmesh::detail {
 
 /// Nine digits: enough to find a place, short enough to read.
-[[nodiscard]] inline std::string to_text(double value) {
+[[nodiscard]] inline std::string rounded_text(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.9g", value);
   return text.data();
 }
 
-[[nodiscard]] inline std::string to_text(const Vec3& position) {
+[[nodiscard]] inline std::string rounded_text(const Vec3& position) {
   std::string text = "(";
-  text += to_text(position[0]);
+  text += rounded_text(position[0]);
   text += ", ";
-  text += to_text(position[1]);
+  text += rounded_text(position[1]);
   text += ", ";
-  text += to_text(position[2]);
+  text += rounded_text(position[2]);
   text += ")";
   return text;
 }

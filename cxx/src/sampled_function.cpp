@@ -47,8 +47,8 @@ void SampledFunction::fail(const char* what, const Vec3& point, double value) co
     cell += (a == 0 ? "" : ", ") +
             std::to_string(static_cast<std::int64_t>(std::clamp(index, 0.0, last)));
   }
-  throw Error(ErrorCode::invalid_value, std::string(what) + " is " + to_text(value) + " at " +
-                                            to_text(point) + ", in or on cell (" + cell + ")");
+  throw Error(ErrorCode::invalid_value, std::string(what) + " is " + rounded_text(value) + " at " +
+                                            rounded_text(point) + ", in or on cell (" + cell + ")");
 }
 
 }  // namespace difmesh::detail

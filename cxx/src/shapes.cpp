@@ -80,7 +80,7 @@ void check_length(const char* name, double value) {
   constexpr double kMost = 1e100;
   if (!(value >= kLeast && value <= kMost)) {
     throw Error(ErrorCode::invalid_argument, std::string("shape: ") + name + " is " +
-                                                 detail::to_text(value) +
+                                                 detail::rounded_text(value) +
                                                  "; it must be finite and greater than 0");
   }
 }
@@ -105,9 +105,9 @@ std::shared_ptr<const detail::ShapeBody> make_body(const ShapeOptions& options) 
       check_length("tube_radius", options.tube_radius);
       if (options.tube_radius >= options.radius) {
         throw Error(ErrorCode::invalid_argument,
-                    "shape: tube_radius is " + detail::to_text(options.tube_radius) +
+                    "shape: tube_radius is " + detail::rounded_text(options.tube_radius) +
                         "; it must be less than the radius of the ring, " +
-                        detail::to_text(options.radius));
+                        detail::rounded_text(options.radius));
       }
       return std::make_shared<detail::ModelBody<detail::TorusModel>>(frame, options.radius,
                                                                      options.tube_radius);
@@ -117,9 +117,9 @@ std::shared_ptr<const detail::ShapeBody> make_body(const ShapeOptions& options) 
     case ShapeKind::smooth_box:
       check_semi_axes(options.semi_axes);
       if (!(options.exponent >= 2.0 && options.exponent <= 64.0)) {
-        throw Error(
-            ErrorCode::invalid_argument,
-            "shape: exponent is " + detail::to_text(options.exponent) + "; 2 to 64 are possible");
+        throw Error(ErrorCode::invalid_argument, "shape: exponent is " +
+                                                     detail::rounded_text(options.exponent) +
+                                                     "; 2 to 64 are possible");
       }
       return std::make_shared<detail::ModelBody<detail::SmoothBoxModel>>(frame, options.semi_axes,
                                                                          options.exponent);

@@ -42,7 +42,7 @@ void check_options(const DistanceOptions& options) {
   if (!(options.facet_spacing >= 0.0) || !std::isfinite(options.facet_spacing)) {
     throw Error(ErrorCode::invalid_argument,
                 "distance: facet_spacing must be finite and not negative, got " +
-                    to_text(options.facet_spacing));
+                    rounded_text(options.facet_spacing));
   }
 }
 

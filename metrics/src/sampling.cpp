@@ -72,9 +72,10 @@ class Sampling {
       part_size_ = 2.0 * facet_spacing * surface_.scale;
       if (!(longest / part_size_ <= kMostParts)) {
         throw Error(ErrorCode::invalid_argument,
-                    "distance: facet_spacing is " + to_text(facet_spacing) + ", but triangle " +
-                        std::to_string(largest) + " of the " + name() + " has an edge of length " +
-                        to_text(longest / surface_.scale) + "; 8192 steps at most are possible");
+                    "distance: facet_spacing is " + rounded_text(facet_spacing) +
+                        ", but triangle " + std::to_string(largest) + " of the " + name() +
+                        " has an edge of length " + rounded_text(longest / surface_.scale) +
+                        "; 8192 steps at most are possible");
       }
     } else {
       part_size_ =
@@ -181,7 +182,8 @@ class Sampling {
   [[noreturn]] static void throw_not_finite(double distance, const std::string& where,
                                             const Vec3& position) {
     throw Error(ErrorCode::invalid_value, "distance: the distance at " + where + " at " +
-                                              to_text(position) + " is " + to_text(distance));
+                                              rounded_text(position) + " is " +
+                                              rounded_text(distance));
   }
 
   const SurfaceView& surface_;
