@@ -61,13 +61,34 @@ TEST_CASE("a mesh turned inside out needs flip") {
               {"inside out", "leave out"});
 }
 
-TEST_CASE("an open mesh is named by an edge") {
-  TriangleMesh mesh = box_mesh({0.5, 0.5, 0.5}, {3.5, 3.5, 3.5});
-  mesh.triangles.erase(mesh.triangles.begin() + 4);  // 0 1 5
+TEST_CASE("an open mesh is named by an edge and the column with its gap") {
+  const TriangleMesh box = box_mesh({0.5, 0.5, 0.5}, {3.5, 3.5, 3.5});
   const Grid grid = make_grid({4, 4, 4});
+  TriangleMesh mesh = box;
+  mesh.triangles.erase(mesh.triangles.begin() + 4);  // 0 1 5
+  // The row of cells along the missing triangle is cut by the box to half, with nothing to say so.
   check_error(caught(grid, mesh), ErrorCode::invalid_argument,
               {"open", "vertex 0 at (0.5, 0.5, 0.5)", "vertex 1 at (3.5, 0.5, 0.5)",
-               "triangle 8 only", "3 such edges"});
+               "triangle 8 only", "3 such edges", "j = 0, k = 1", "gap of 0.5 of"});
+  // The same hole on faces of cells changes no cross-section.
+  TriangleMesh aligned = box_mesh({1, 1, 1}, {3, 3, 3});
+  aligned.triangles.erase(aligned.triangles.begin() + 4);
+  const Caught edge_on = caught(grid, aligned);
+  check_error(edge_on, ErrorCode::invalid_argument, {"open", "triangle 8 only", "3 such edges)"});
+  CHECK(edge_on.message.find("column") == std::string::npos);
+  // Half of the face at the high x; the first column loses an eighth of its cross-section.
+  mesh = box;
+  mesh.triangles.erase(mesh.triangles.begin() + 3);  // 1 7 5
+  check_error(caught(grid, mesh), ErrorCode::invalid_argument,
+              {"open", "vertex 1 at (3.5, 0.5, 0.5)", "3 such edges", "column", "j = 0", "k = 0",
+               "y = 0.5", "z = 0.5", "gap of 0.125 of its cross-section"});
+  Grid upper = grid;
+  upper.origin[2] = 2.0;
+  check_error(caught(upper, mesh), ErrorCode::invalid_argument,
+              {"open", "column", "j = 0", "k = 0", "z = 2.5", "gap of 0.5 of"});
+  Grid beside = grid;
+  beside.origin[1] = 20.0;
+  CHECK(caught(beside, mesh).message.find("column") == std::string::npos);
 }
 
 TEST_CASE("without the check of edges the columns tell") {

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "difmesh/error.hpp"
 #include "position_text.hpp"
 
 namespace difmesh::detail {
@@ -120,8 +119,8 @@ std::uint64_t edge_balance(std::span<const std::uint64_t> position_keys,
   return sum;
 }
 
-void throw_first_unbalanced_edge(std::span<const Vec3> positions,
-                                 std::span<const Triangle> triangles) {
+std::optional<EdgeDefect> find_edge_defect(std::span<const Vec3> positions,
+                                           std::span<const Triangle> triangles) {
   const std::vector<std::uint32_t> first = first_at_position(positions);
   const std::vector<HalfEdge> half_edges = sorted_half_edges(first, triangles);
   std::span<const HalfEdge> found;
@@ -140,11 +139,12 @@ void throw_first_unbalanced_edge(std::span<const Vec3> positions,
     }
     begin = end;
   }
-  if (unbalanced > 0) {
-    throw Error(ErrorCode::invalid_argument,
-                describe(found, positions) + " (" + std::to_string(unbalanced) +
-                    (unbalanced == 1 ? " such edge)" : " such edges)"));
+  if (unbalanced == 0) {
+    return std::nullopt;
   }
+  return EdgeDefect{describe(found, positions) + " (" + std::to_string(unbalanced) +
+                        (unbalanced == 1 ? " such edge)" : " such edges)"),
+                    found.size() != 2};
 }
 
 }  // namespace difmesh::detail

@@ -2,7 +2,9 @@
 // Whether triangles bound something: every edge run along as often one way as the other.
 
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 
 #include "difmesh/grid.hpp"
 #include "difmesh/mesh.hpp"
@@ -19,10 +21,15 @@ namespace difmesh::detail {
 [[nodiscard]] std::uint64_t edge_balance(std::span<const std::uint64_t> position_keys,
                                          std::span<const Triangle> triangles) noexcept;
 
-/// Looks for an edge that is out of balance and throws Error invalid_argument naming it, its place
-/// and its triangles; returns if there is none. Edges match by the positions of their ends. O(n log
+/// What is wrong with a mesh whose edges are not in balance.
+struct EdgeDefect {
+  std::string message;  ///< names the first such edge, its place and its triangles
+  bool open = false;    ///< there may be a hole, not orientation alone
+};
+
+/// Looks for an edge that is out of balance. Edges match by the positions of their ends. O(n log
 /// n). \pre indices in range, positions finite
-void throw_first_unbalanced_edge(std::span<const Vec3> positions,
-                                 std::span<const Triangle> triangles);
+[[nodiscard]] std::optional<EdgeDefect> find_edge_defect(std::span<const Vec3> positions,
+                                                         std::span<const Triangle> triangles);
 
 }  // namespace difmesh::detail

@@ -1,7 +1,6 @@
 #include "difmesh/fractions_from_function.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -13,21 +12,17 @@
 #include "first_error.hpp"
 #include "parallel.hpp"
 #include "position_text.hpp"
+#include "stopwatch.hpp"
 
 namespace difmesh {
 namespace {
 
 using detail::CellCandidate;
 using detail::CellQuadrature;
-using Clock = std::chrono::steady_clock;
 
 // What the lattice takes of the time, roughly; for the progress only.
 constexpr double kLatticeWeight = 0.2;
 constexpr std::int64_t kCellsPerPortion = 32;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 void check_tolerance(const char* name, double value) {
   if (!(value >= 1e-13 && value <= 1e-2)) {
@@ -153,7 +148,8 @@ void fill_report(FractionsFromFunctionReport& report, const detail::Screening& s
 
 FractionsFromFunction fractions_from_function(const Grid& grid, const FunctionBatch& f,
                                               const FractionsFromFunctionOptions& options) {
-  const auto start = Clock::now();
+  detail::Stopwatch whole;
+  detail::Stopwatch phase;
   check(grid, f, options);
   detail::Workers workers(options.threads);
   detail::Phases phases(workers, options.progress);
@@ -162,7 +158,7 @@ FractionsFromFunction fractions_from_function(const Grid& grid, const FunctionBa
 
   const detail::Screening screening =
       detail::screen_cells(grid, f, workers, phases, kLatticeWeight, result.fractions);
-  result.report.seconds.lattice = seconds_since(start);
+  result.report.seconds.lattice = phase.lap();
 
   const std::span<const CellCandidate> candidates = screening.candidates;
   const auto count = static_cast<std::int64_t>(candidates.size());
@@ -183,8 +179,8 @@ FractionsFromFunction fractions_from_function(const Grid& grid, const FunctionBa
 
   fill_report(result.report, screening, tallies);
   result.report.fraction_volume *= grid.cell_volume();
-  result.report.seconds.total = seconds_since(start);
-  result.report.seconds.quadrature = result.report.seconds.total - result.report.seconds.lattice;
+  result.report.seconds.quadrature = phase.lap();
+  result.report.seconds.total = whole.lap();
   return result;
 }
 

@@ -1,7 +1,6 @@
 #include "difmesh/fractions_from_mesh.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -16,6 +15,7 @@
 #include "grid_mesh.hpp"
 #include "parallel.hpp"
 #include "position_text.hpp"
+#include "stopwatch.hpp"
 #include "triangle_bins.hpp"
 
 namespace difmesh {
@@ -110,6 +110,7 @@ struct Work {
 };
 
 /// Fills the rows of one block. \param sums as many rows as a block has, cleared; so is it left
+/// \param fractions null: only the facts are wanted
 BlockResult fill_block(const Work& work, std::int64_t block, ColumnSums& sums, double* fractions) {
   BlockResult result;
   const RowBlocks::Rows rows = work.blocks.rows(block);
@@ -121,10 +122,11 @@ BlockResult fill_block(const Work& work, std::int64_t block, ColumnSums& sums, d
                          work.corners[triangle[2]]);
   }
   result.facts.pieces = clipper.pieces();
+  std::vector<double> nowhere(fractions == nullptr ? static_cast<std::size_t>(dims[0]) : 0);
   std::int64_t row = 0;
   for (std::int64_t k = rows.first_k; k < rows.end_k; ++k) {
     for (std::int64_t j = rows.first_j; j < rows.end_j; ++j) {
-      double* out = fractions + (k * dims[1] + j) * dims[0];
+      double* out = fractions == nullptr ? nowhere.data() : fractions + (k * dims[1] + j) * dims[0];
       const ColumnFault fault = sums.drain(row++, work.rules, out, result.facts);
       if (fault.kind != ColumnFault::Kind::none && result.fault.kind == ColumnFault::Kind::none) {
         result.fault = fault;
@@ -135,24 +137,27 @@ BlockResult fill_block(const Work& work, std::int64_t block, ColumnSums& sums, d
   return result;
 }
 
+std::string describe_gap(const BlockResult& block, const Grid& grid) {
+  const Vec3 centre = grid.cell_centre(block.cell);
+  return "the column of cells along x at j = " + std::to_string(block.cell[1]) +
+         ", k = " + std::to_string(block.cell[2]) + ", y = " + rounded_text(centre[1]) +
+         ", z = " + rounded_text(centre[2]) + ", has a gap of " + rounded_text(block.fault.value) +
+         " of its cross-section";
+}
+
 [[noreturn]] void throw_fault(const BlockResult& block, const Grid& grid, double tolerance) {
-  const Index3& cell = block.cell;
-  const Vec3 centre = grid.cell_centre(cell);
   if (block.fault.kind == ColumnFault::Kind::gap) {
-    throw_invalid(
-        "the mesh is open: the column of cells along x at j = " + std::to_string(cell[1]) +
-        ", k = " + std::to_string(cell[2]) + ", y = " + rounded_text(centre[1]) +
-        ", z = " + rounded_text(centre[2]) + ", has a gap of " + rounded_text(block.fault.value) +
-        " of its cross-section; the tolerance is " + rounded_text(tolerance));
+    throw_invalid("the mesh is open: " + describe_gap(block, grid) + "; the tolerance is " +
+                  rounded_text(tolerance));
   }
+  const Index3& cell = block.cell;
   throw_invalid("parts of the mesh overlap or are inside out: cell (" + std::to_string(cell[0]) +
                 ", " + std::to_string(cell[1]) + ", " + std::to_string(cell[2]) + ") at " +
-                rounded_text(centre) + " would have the fraction " +
+                rounded_text(grid.cell_centre(cell)) + " would have the fraction " +
                 rounded_text(block.fault.value));
 }
 
-/// Fills the whole field. Faults are named in the order of memory, whoever found them first.
-RowFacts fill_field(const Work& work, Phases& phases, double* fractions) {
+std::vector<BlockResult> fill_blocks(const Work& work, Phases& phases, double* fractions) {
   std::vector<BlockResult> results(static_cast<std::size_t>(work.blocks.count()));
   SumsPool pool(work.blocks.rows_per_block(), work.grid.dims[0]);
   phases.run(1.0 - kCheckWeight, work.blocks.count(), 1, [&](std::int64_t begin, std::int64_t end) {
@@ -162,14 +167,31 @@ RowFacts fill_field(const Work& work, Phases& phases, double* fractions) {
     }
     pool.give_back(std::move(sums));
   });
+  return results;
+}
+
+/// Fills the whole field. Faults are named in the order of memory, whoever found them first.
+RowFacts fill_field(const Work& work, Phases& phases, double* fractions) {
   RowFacts facts;
-  for (const BlockResult& result : results) {
+  for (const BlockResult& result : fill_blocks(work, phases, fractions)) {
     if (result.fault.kind != ColumnFault::Kind::none) {
       throw_fault(result, work.grid, work.rules.tolerance);
     }
     facts.merge(result.facts);
   }
   return facts;
+}
+
+/// An edge says where a mesh is torn, a column how far the hole gapes, where the grid sees it.
+[[noreturn]] void throw_defect(const EdgeDefect& defect, const Work& work, Phases& phases) {
+  if (defect.open) {
+    for (const BlockResult& result : fill_blocks(work, phases, nullptr)) {
+      if (result.fault.kind == ColumnFault::Kind::gap) {
+        throw_invalid(defect.message + "; " + describe_gap(result, work.grid));
+      }
+    }
+  }
+  throw_invalid(defect.message);
 }
 
 void fill_report(const RowFacts& facts, const Grid& grid, FractionsFromMeshReport& report) {
@@ -181,18 +203,6 @@ void fill_report(const RowFacts& facts, const Grid& grid, FractionsFromMeshRepor
   report.fraction_volume =
       (static_cast<double>(facts.full_cells) + facts.touched_fractions) * grid.cell_volume();
 }
-
-class Stopwatch {
- public:
-  /// Seconds since construction or the last call.
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 }  // namespace
 
@@ -216,12 +226,17 @@ FractionsFromMesh fractions_from_mesh(const Grid& grid, std::span<const Vec3> po
 
   // First of what grows with the grid: where memory is short, this is what fails, before it is
   // touched.
-  result.fractions.resize(static_cast<std::size_t>(grid.cell_count()));
+  if (!mesh.defect) {
+    result.fractions.resize(static_cast<std::size_t>(grid.cell_count()));
+  }
   const RowBlocks blocks(grid.dims);
   const TriangleBins bins(blocks, mesh.corners, triangles, workers);
   report.seconds.bin = phase.lap();
 
   const Work work{grid, mesh.corners, triangles, blocks, bins, row_rules(grid, options)};
+  if (mesh.defect) {
+    throw_defect(*mesh.defect, work, phases);
+  }
   fill_report(fill_field(work, phases, result.fractions.data()), grid, report);
   report.seconds.clip = phase.lap();
   phases.finish();

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "clip_band.hpp"
-#include "closed_surface.hpp"
 #include "difmesh/error.hpp"
 #include "position_text.hpp"
 
@@ -153,7 +152,10 @@ GridMesh checked_mesh(const Grid& grid, std::span<const Vec3> positions,
   check_indices(positions.size(), triangles, phases);
   const SurfaceSums sums = surface_sums(mesh.corners, keys, triangles, phases);
   if (rules.check_edges && sums.balance != 0) {
-    throw_first_unbalanced_edge(positions, triangles);
+    mesh.defect = find_edge_defect(positions, triangles);
+    if (mesh.defect) {
+      return mesh;
+    }
   }
   mesh.volume = (rules.flip ? -1.0 : 1.0) * sums.volume6 / 6.0;
   if (mesh.volume < -kVolumeRounding * sums.terms6) {

@@ -1,8 +1,10 @@
 #pragma once
 // A triangle mesh in the units of a grid, checked.
 
+#include <optional>
 #include <span>
 
+#include "closed_surface.hpp"
 #include "difmesh/grid.hpp"
 #include "difmesh/mesh.hpp"
 #include "parallel.hpp"
@@ -12,6 +14,8 @@ namespace difmesh::detail {
 struct GridMesh {
   Array<Vec3> corners;  ///< positions in spacings from the grid's origin
   double volume = 0.0;  ///< inside the whole mesh, in cells
+  /// Only where edges were to be checked; nothing is known of the volume then.
+  std::optional<EdgeDefect> defect;
 };
 
 struct MeshRules {
@@ -24,7 +28,7 @@ inline constexpr double kCheckWeight = 0.12;
 
 /// Checks that a mesh is finite, within 2^32 spacings of the grid's origin, has its indices in
 /// range, is closed and right way out, and moves it to grid units. \throw Error invalid_argument,
-/// naming the vertex, the triangle or the edge. \pre not empty
+/// naming the vertex or the triangle; edges that do not match are told in the result. \pre not empty
 [[nodiscard]] GridMesh checked_mesh(const Grid& grid, std::span<const Vec3> positions,
                                     std::span<const Triangle> triangles, const MeshRules& rules,
                                     Phases& phases);

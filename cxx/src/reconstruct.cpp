@@ -1,6 +1,5 @@
 #include "difmesh/reconstruct.hpp"
 
-#include <chrono>
 #include <limits>
 #include <string>
 
@@ -10,6 +9,7 @@
 #include "dual_grid.hpp"
 #include "parallel.hpp"
 #include "plane_table.hpp"
+#include "stopwatch.hpp"
 #include "triangles.hpp"
 #include "vertices.hpp"
 
@@ -19,21 +19,7 @@ namespace {
 using detail::BlockField;
 using detail::DualGrid;
 using detail::Phases;
-
-/// Wall time since the last lap.
-class Stopwatch {
- public:
-  double lap() {
-    const auto now = Clock::now();
-    const double seconds = std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-    return seconds;
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point last_ = Clock::now();
-};
+using detail::Stopwatch;
 
 Vec3 middle_of(const BlockField& field) {
   Vec3 middle;

@@ -16,7 +16,7 @@ struct FractionsFromMeshOptions {
   bool flip = false;
   /// Demand that every edge is run along as often one way as the other. Edges match by the
   /// positions of their ends, so triangles need not share vertices. Off: a mesh with T-junctions or
-  /// tiny cracks passes too, and only the columns' sums show whether it is closed; they cannot show
+  /// tiny cracks passes too, and only the columns' sums show whether it is closed; they may not show
   /// a hole that is seen edge-on along x.
   bool check_edges = true;
   /// A column's sum may miss an integer, and a fraction lie outside [0,1], by this before the call
@@ -54,7 +54,7 @@ struct FractionsFromMesh {
 ///
 /// No sampling and no inside test: each triangle is clipped to the cells it meets. A piece in a
 /// cell adds the volume beyond itself to the cell, and its area projected along x to all cells
-/// beyond it, by one running sum per column (divergence theorem; method page, section 9).
+/// beyond it, by one running sum per column (divergence theorem; docs/method.md, "Making fields").
 /// - Several components and hollow ones are fine. Components must not overlap: Ω would count twice.
 /// - The grid cuts off what lies outside it. A mesh that surrounds the grid gives 1 everywhere, one
 ///   beside it 0.
@@ -68,8 +68,8 @@ struct FractionsFromMesh {
 /// \param positions finite, less than 2^32 spacings away from the grid's origin
 /// \throw Error invalid_grid; too_large for 2^32 vertices or triangles; cancelled; invalid_argument
 ///   for options out of range, an empty mesh, a vertex not finite or too far away, an index out of
-///   range, an open mesh (an edge and its triangle are named, or without check_edges the column and
-///   its gap), mixed orientation (two triangles are named), a mesh that is inside out (see `flip`),
+///   range, an open mesh (an edge and its triangle are named, and where the grid sees the hole along
+///   x the first column and its gap; without check_edges the latter alone), mixed orientation (two triangles are named), a mesh that is inside out (see `flip`),
 ///   or parts that overlap or are inside out (a cell is named).
 /// Cost: O(pieces + cells), 30 to 60 ns per piece and up to 3 ns per cell on one core. Memory
 /// beyond the field: 32 bytes per vertex, 4 per triangle and layer of cells that it meets, and 0.5

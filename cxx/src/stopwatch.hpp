@@ -1,0 +1,22 @@
+#pragma once
+// Wall time.
+
+#include <chrono>
+#include <utility>
+
+namespace difmesh::detail {
+
+class Stopwatch {
+ public:
+  /// Seconds since the last lap, or since the start.
+  double lap() {
+    const Clock::time_point now = Clock::now();
+    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last_ = Clock::now();
+};
+
+}  // namespace difmesh::detail
