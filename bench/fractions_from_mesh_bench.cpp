@@ -49,14 +49,7 @@ TriangleMesh sphere(std::uint32_t rings, std::uint32_t sectors) {
 
 /// A cube of cells round the mesh, its longest side over all cells but two.
 Grid cube_around(const TriangleMesh& mesh, std::int64_t cells) {
-  Vec3 low = mesh.positions[0];
-  Vec3 high = low;
-  for (const Vec3& p : mesh.positions) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      low[a] = std::min(low[a], p[a]);
-      high[a] = std::max(high[a], p[a]);
-    }
-  }
+  const auto [low, high] = test::corners_of_box_round(mesh);
   const double longest = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
   const double spacing = longest / static_cast<double>(cells - 2);
   Grid grid;

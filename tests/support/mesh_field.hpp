@@ -79,14 +79,7 @@ inline constexpr std::array<SharedMesh, 4> kSharedMeshes = {
 
 /// A grid round a mesh with this many cells along its longest side, and a margin.
 [[nodiscard]] inline Grid grid_around(const TriangleMesh& mesh, std::int64_t cells) {
-  Vec3 low = mesh.positions[0];
-  Vec3 high = low;
-  for (const Vec3& p : mesh.positions) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      low[a] = std::min(low[a], p[a]);
-      high[a] = std::max(high[a], p[a]);
-    }
-  }
+  const auto [low, high] = corners_of_box_round(mesh);
   const Vec3 size = subtract(high, low);
   const double spacing = *std::max_element(size.begin(), size.end()) / static_cast<double>(cells);
   Grid grid;

@@ -138,6 +138,27 @@ TEST_CASE("shapes: the closest point is on the surface and straight below") {
   }
 }
 
+TEST_CASE("ball and box: halves and caps and corners") {
+  const Sphere ball{{0, 0, 0}, 1.0};
+  const double volume = 4.0 / 3.0 * std::numbers::pi;
+  CHECK(64.0 * sphere_overlap(ball, {{-2, -2, -2}, {2, 2, 2}}) ==
+        doctest::Approx(volume).epsilon(1e-15));
+  CHECK(sphere_overlap(ball, {{0, 0, 0}, {1, 1, 1}}) == doctest::Approx(volume / 8).epsilon(1e-15));
+  // A cap, cut off by each of the six planes.
+  const double cap = std::numbers::pi * 0.3 * 0.3 * (3.0 - 0.3) / 3.0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    Box box{{-2, -2, -2}, {2, 2, 2}};
+    box.low[a] = 0.7;
+    CHECK(16.0 * 1.3 * sphere_overlap(ball, box) == doctest::Approx(cap).epsilon(1e-14));
+    box.low[a] = -2.0;
+    box.high[a] = -0.7;
+    CHECK(16.0 * 1.3 * sphere_overlap(ball, box) == doctest::Approx(cap).epsilon(1e-14));
+  }
+  // The corner opposite the centre is just on the sphere.
+  const double side = 1.0 / std::sqrt(3.0);
+  CHECK(sphere_overlap(ball, {{0, 0, 0}, {side, side, side}}) == doctest::Approx(1.0));
+}
+
 TEST_CASE("fractions: the quadrature agrees with the closed form of ball and box") {
   const Sphere sphere{{0.123, -0.37, 0.71}, 8.0};
   for (const Vec3& spacing : {Vec3{1.0, 1.0, 1.0}, Vec3{0.5, 1.0, 2.5}}) {

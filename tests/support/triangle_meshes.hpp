@@ -2,6 +2,7 @@
 /// \file triangle_meshes.hpp
 /// Closed triangle meshes for tests: boxes, tetrahedra, and files.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -36,6 +37,19 @@ struct TriangleMesh {
     return mesh;
   }
 };
+
+/// Low and high corner of the box round all vertices.
+[[nodiscard]] inline std::pair<Vec3, Vec3> corners_of_box_round(const TriangleMesh& mesh) {
+  Vec3 low = mesh.positions[0];
+  Vec3 high = low;
+  for (const Vec3& p : mesh.positions) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      low[a] = std::min(low[a], p[a]);
+      high[a] = std::max(high[a], p[a]);
+    }
+  }
+  return {low, high};
+}
 
 /// Twelve triangles, outward. Vertex b has the high x where bit 0 of b is set, y: bit 1, z: bit 2.
 [[nodiscard]] inline TriangleMesh box_mesh(const Vec3& low, const Vec3& high) {
