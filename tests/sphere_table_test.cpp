@@ -1,5 +1,5 @@
 // Distances of the vertices to a sphere, by placement and resolution, against the figures of an
-// independent implementation (docs/method.md, section 5).
+// independent implementation of the method in docs/method.md.
 
 #include <doctest/doctest.h>
 

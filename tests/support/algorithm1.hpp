@@ -23,7 +23,7 @@ struct CrossedEdge {
 enum class Guess { mid_edge, linear, manson };
 
 /// Where the iteration starts. Linear: where the fractions, interpolated, are ½. Manson et al.
-/// (2011): the four cases of docs/method.md, section 2.
+/// (2011): its four planar cases.
 [[nodiscard]] double initial_guess(Guess guess, double outer_fraction, double inner_fraction);
 
 /// Share of the window T, a cuboid of a cell's size centred on the edge at mu, that the two planes
