@@ -13,6 +13,7 @@
 #include "difmesh/measure.hpp"
 #include "json.hpp"
 #include "long_call.hpp"
+#include "mesh_facts.hpp"
 #include "output_file.hpp"
 #include "parse.hpp"
 #include "shape_options.hpp"
@@ -77,8 +78,7 @@ Mesh read_triangles(const std::string& path) {
 }
 
 std::optional<double> volume_of(const Mesh& mesh) {
-  const Measure facts = measure(mesh);
-  return facts.closed ? std::optional(facts.volume) : std::nullopt;
+  return enclosed_volume(measure(mesh));
 }
 
 Comparison compare_with_shape(const Request& request, const DistanceOptions& options) {
@@ -182,7 +182,7 @@ void print_distances(std::ostream& out, const Comparison& comparison) {
 
 void print_volumes(std::ostream& out, const Comparison& comparison) {
   const auto text = [](const std::optional<double>& volume) {
-    return volume ? rounded(*volume, 10) : "none, it is not closed";
+    return volume ? rounded(*volume, 10) : "none, it is open or its orientation is mixed";
   };
   print_fact(out, "volume", text(comparison.volume));
   print_fact(out, "reference volume", text(comparison.reference_volume));

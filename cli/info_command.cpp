@@ -16,6 +16,7 @@
 #include "field_facts.hpp"
 #include "field_input.hpp"
 #include "json.hpp"
+#include "mesh_facts.hpp"
 #include "names.hpp"
 #include "output_file.hpp"
 #include "parse.hpp"
@@ -111,6 +112,7 @@ void print_field(std::ostream& out, const Request& request, const LoadedField& f
 }
 
 Json mesh_json(const Mesh& mesh, const Measure& facts, const std::optional<double>& roughness) {
+  const std::optional<double> volume = enclosed_volume(facts);
   return {{"vertices", facts.vertices},
           {"triangles", facts.triangles},
           {"edges", facts.edges},
@@ -125,11 +127,18 @@ Json mesh_json(const Mesh& mesh, const Measure& facts, const std::optional<doubl
           {"components", facts.components},
           {"euler_number", facts.euler_number},
           {"area", facts.area},
-          {"volume", facts.closed ? Json(facts.volume) : Json()},
+          {"volume", volume ? Json(*volume) : Json()},
           {"low", facts.low},
           {"high", facts.high},
           {"roughness_degrees", roughness ? Json(*roughness) : Json()},
           {"vertex_normals", !mesh.normals.empty()}};
+}
+
+std::string volume_text(const Measure& facts) {
+  if (const std::optional<double> volume = enclosed_volume(facts)) {
+    return rounded(*volume, 10);
+  }
+  return facts.closed ? "none, the mesh has mixed orientation" : "none, the mesh is not closed";
 }
 
 std::string manifold_text(const Measure& facts) {
@@ -162,8 +171,7 @@ void print_mesh(std::ostream& out, const std::string& path, const Measure& facts
   print_fact(out, "components", std::to_string(facts.components));
   print_fact(out, "Euler number", std::to_string(facts.euler_number));
   print_fact(out, "area", rounded(facts.area, 10));
-  print_fact(out, "enclosed volume",
-             facts.closed ? rounded(facts.volume, 10) : "none, the mesh is not closed");
+  print_fact(out, "enclosed volume", volume_text(facts));
   print_fact(out, "box", rounded(facts.low, 8) + "  to  " + rounded(facts.high, 8));
   print_fact(out, "roughness",
              roughness

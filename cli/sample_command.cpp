@@ -59,6 +59,7 @@ struct Request {
   GridWish grid;
   ShapeInput shape;
   bool flip = false;
+  std::optional<double> cracks;  ///< as a share of a column's cross-section
   ScalarType type = ScalarType::float64;
   int threads = 0;
   bool quiet = false;
@@ -123,6 +124,10 @@ Sample sample_mesh(const Request& request, LongCall& long_call) {
   sample.grid = grid_around(bounds_of(request.body, mesh), request.grid);
   FractionsFromMeshOptions options;
   options.flip = request.flip;
+  if (request.cracks) {
+    options.check_edges = false;
+    options.tolerance = *request.cracks;
+  }
   options.threads = request.threads;
   options.progress = long_call.progress();
   try {
@@ -184,6 +189,9 @@ void check_request(const Request& request) {
   }
   if (!request.is_mesh() && request.flip) {
     throw CLI::ValidationError("--flip", "only meshes can be inside out");
+  }
+  if (!request.is_mesh() && request.cracks) {
+    throw CLI::ValidationError("--cracks", "only meshes can have cracks");
   }
   const bool with_cells = request.grid.cells || request.grid.cells_by_axis;
   if (with_cells == request.grid.spacing.has_value()) {
@@ -264,6 +272,15 @@ void add_sample_command(CLI::App& program) {
       ->option_text("FIELD");
   command.add_flag("--flip", request->flip,
                    "Meshes: triangles are clockwise seen from outside, turn them");
+  command
+      .add_option_function<std::string>(
+          "--cracks",
+          [request](const std::string& text) {
+            request->cracks = parse_number("--cracks", text, {1e-12, 0.25});
+          },
+          "Meshes: let edges pass that do not match, as at T-junctions and small cracks, if no\n"
+          "column of cells gapes by more than this share of its cross-section, 1e-12 to 0.25")
+      ->option_text("SHARE");
   command
       .add_option_function<std::string>(
           "--type",

@@ -250,6 +250,14 @@ TEST_CASE("info tells what is wrong with a mesh") {
   CHECK(fact(bad, "manifold") ==
         "no: 1 non-manifold edge, 2 non-manifold vertices, 0 misoriented edges");
   CHECK(fact(bad, "roughness").starts_with("none"));
+
+  TriangleMesh mixed = box_mesh({0, 0, 0}, {1, 1, 1});
+  std::swap(mixed.triangles[7][0], mixed.triangles[7][1]);
+  const std::string turned = info(write_soup(folder, "turned.ply", mixed));
+  CHECK(fact(turned, "closed") == "yes");
+  CHECK(fact(turned, "manifold").ends_with("3 misoriented edges"));
+  CHECK(fact(turned, "enclosed volume") == "none, the mesh has mixed orientation");
+  CHECK(info_json(folder / "turned.ply")["mesh"]["volume"].is_null());
 }
 
 TEST_CASE("info in JSON goes to the file and nothing is printed") {

@@ -360,6 +360,8 @@ TEST_CASE("sample says what is wrong with its arguments") {
       {"sphere", {"--spacing", "1e-12"}, {"--spacing", "1e-12", "too small"}},
       {"sphere", {"--cells", "9", "--origin", "0,1,0"}, {"--origin", "1 along y"}},
       {"sphere", {"--cells", "9", "--flip"}, {"--flip", "meshes"}},
+      {"sphere", {"--cells", "9", "--cracks", "0.1"}, {"--cracks", "meshes"}},
+      {"part.stl", {"--cells", "9", "--cracks", "0.3"}, {"--cracks", "0.3", "0.25"}},
       {"sphere", {"--cells", "9", "--type", "uint8"}, {"--type", "'uint8'", "float32, float64"}},
       {"sphere", {"--cells", "9", "--exponent", "4"}, {"--exponent", "sphere", "--radius"}},
       {"sphere", {"--cells", "9", "--radius", "-1"}, {"radius", "-1"}},
@@ -384,15 +386,58 @@ TEST_CASE("sample says what is wrong with its arguments") {
   CHECK(place.folder.names().empty());
 }
 
+TEST_CASE("sample lets cracks pass that are small enough") {
+  const Place place;
+  // At a corner a sliver of height 1e-6 is missing between the triangles.
+  TriangleMesh torn = box_mesh({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0});
+  torn.positions.push_back({0.0, 0.0, 1.0 - 1e-6});
+  torn.triangles[0] = {0, 8, 6};
+  const std::string path = place.write("torn.off", torn);
+  check_fails(place.run(path, {"--cells", "17"}), 1,
+              {"torn.off", "is open", "4 such edges", "j = 3, k = 13", "gap of -1.05e-05 of"});
+  check_fails(place.run(path, {"--cells", "17", "--cracks", "1e-9"}), 1,
+              {"torn.off", "is open", "column", "tolerance"});
+  CHECK(place.sample(path, {"--cells", "17", "--cracks", "1e-3"}).volume() ==
+        doctest::Approx(1.0).epsilon(1e-5));
+  // Without a sliver, at a T-junction, nothing is missing.
+  torn.positions.back()[2] = 0.4;
+  torn.triangles.push_back({8, 4, 6});
+  const std::string junction = place.write("junction.off", torn);
+  check_fails(place.run(junction, {"--cells", "17"}), 1, {"junction.off", "is open"});
+  CHECK(place.sample(junction, {"--cells", "17", "--cracks", "1e-9"}).volume() ==
+        doctest::Approx(1.0).epsilon(1e-12));
+}
+
 TEST_CASE("sample names a mesh that it cannot use") {
   const Place place;
-  TriangleMesh open = box_mesh({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0});
-  open.triangles.pop_back();
+  const TriangleMesh box = box_mesh({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0});
+  TriangleMesh open = box;
+  open.triangles.erase(open.triangles.begin() + 2);  // half of the face at x = 1
   const std::string path = place.write("open.off", open);
-  check_fails(place.run(path, {"--cells", "12"}), 1, {"open.off", "the mesh is open", "edge"});
+  check_fails(place.run(path, {"--cells", "12"}), 1,
+              {"open.off", "the mesh is open", "edge from vertex 1 at (1, 0, 0)",
+               "the column of cells along x at j = 3, k = 3", "gap of 0.5"});
+  TriangleMesh mixed = box;
+  std::swap(mixed.triangles[7][0], mixed.triangles[7][1]);
+  check_fails(place.run(place.write("mixed.off", mixed), {"--cells", "12"}), 1,
+              {"mixed.off", "mixed orientation", "triangles", "7", "vertex 2 at (0, 1, 0)"});
+  const auto with_text = [&](const std::string& name, const std::string& from,
+                             const std::string& to) {
+    std::string text = test::read_bytes(place.write("text.off", box));
+    const std::size_t at = text.rfind(from);
+    REQUIRE(at != std::string::npos);
+    text.replace(at, from.size(), to);
+    std::filesystem::remove(place.folder / "text.off");
+    return place.folder.file(name, text).string();
+  };
+  check_fails(place.run(with_text("nan.off", "\n1 1 1\n", "\n1 nan 1\n"), {"--cells", "12"}), 1,
+              {"nan.off", "line 10", "'nan'"});
+  check_fails(place.run(with_text("index.off", "3 4 7 6", "3 4 7 8"), {"--cells", "12"}), 1,
+              {"index.off", "face 11", "vertex 8 of 8"});
   check_fails(place.run((place.folder / "none.ply").string(), {"--cells", "12"}), 1,
               {"none.ply", "No such file"});
   const std::string empty = place.write("empty.off", {});
   check_fails(place.run(empty, {"--cells", "12"}), 1, {"empty.off", "no triangles"});
-  CHECK(place.folder.names() == Words{"empty.off", "open.off"});
+  CHECK(place.folder.names() ==
+        Words{"empty.off", "index.off", "mixed.off", "nan.off", "open.off"});
 }
