@@ -7,12 +7,15 @@ set(difmesh_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/difmesh)
 # arguments of find_package().
 set(difmesh_core_parts "")
 set(difmesh_io_parts core)
+set(difmesh_adapters_parts "")
 set(difmesh_metrics_parts core)
 set(difmesh_core_needs "")
 if(DIFMESH_WITH_TBB)
   list(APPEND difmesh_core_needs "TBB CONFIG COMPONENTS tbb")
 endif()
 set(difmesh_io_needs "ZLIB")
+# Users of the adapters bring OpenMesh or CGAL themselves.
+set(difmesh_adapters_needs "")
 set(difmesh_metrics_needs "embree 3 CONFIG" "TBB CONFIG COMPONENTS tbb")
 # libdifmesh.so brings all it needs.
 set(difmesh_capi_parts "")

@@ -1,0 +1,115 @@
+#pragma once
+/// \file mesh_view.hpp
+/// What the adapters to mesh libraries read from and what they tell. Types only: nothing of difmesh
+/// has to be linked, but libdifmesh where a `const dif_mesh*` is handed over.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "difmesh/error.hpp"
+#include "difmesh/mesh.hpp"
+
+#if defined(__has_include)
+#if __has_include("difmesh/difmesh.h")
+#include "difmesh/difmesh.h"
+#define DIFMESH_HAS_C_MESH 1
+#endif
+#endif
+
+namespace difmesh {
+
+/// A triangle mesh in memory that others own: a Mesh, a C `dif_mesh`, or arrays of any origin, which
+/// need be neither manifold nor well oriented. Valid as long as these are neither changed nor freed.
+struct MeshView {
+  const double* positions = nullptr;        ///< x, y, z per vertex, in the unit of the grid
+  std::int64_t vertices = 0;                ///< how many
+  const std::uint32_t* indices = nullptr;   ///< three per triangle, counter-clockwise from outside
+  std::int64_t triangles = 0;               ///< how many
+  const double* normals = nullptr;          ///< null, or x, y, z per vertex
+  const std::uint64_t* edge_ids = nullptr;  ///< null, or one per vertex; see Mesh::edge_ids
+
+  MeshView() = default;
+
+  /// \throw Error invalid_argument if normals or edge_ids are neither empty nor one per vertex.
+  MeshView(const Mesh& mesh)  // NOLINT(google-explicit-constructor): any mesh is a view
+      : vertices(static_cast<std::int64_t>(mesh.positions.size())),
+        triangles(static_cast<std::int64_t>(mesh.triangles.size())) {
+    const auto check = [&mesh](std::size_t size, const char* name) {
+      if (size != 0 && size != mesh.positions.size()) {
+        throw Error(ErrorCode::invalid_argument,
+                    std::string(name) + " holds " + std::to_string(size) + " entries for " +
+                        std::to_string(mesh.positions.size()) + " vertices");
+      }
+      return size != 0;
+    };
+    positions = vertices == 0 ? nullptr : mesh.positions.front().data();
+    indices = triangles == 0 ? nullptr : mesh.triangles.front().data();
+    normals = check(mesh.normals.size(), "normals") ? mesh.normals.front().data() : nullptr;
+    edge_ids = check(mesh.edge_ids.size(), "edge_ids") ? mesh.edge_ids.data() : nullptr;
+  }
+
+#ifdef DIFMESH_HAS_C_MESH
+  /// \throw Error invalid_argument if libdifmesh refuses to show the mesh, as it does for null.
+  MeshView(const dif_mesh* mesh) {  // NOLINT(google-explicit-constructor)
+    std::int64_t with_normals = 0;
+    std::int64_t with_edge_ids = 0;
+    if (dif_mesh_positions(mesh, &positions, &vertices) != DIF_OK ||
+        dif_mesh_triangles(mesh, &indices, &triangles) != DIF_OK ||
+        dif_mesh_normals(mesh, &normals, &with_normals) != DIF_OK ||
+        dif_mesh_edge_ids(mesh, &edge_ids, &with_edge_ids) != DIF_OK) {
+      throw Error(ErrorCode::invalid_argument, "the dif_mesh cannot be read");
+    }
+  }
+#endif
+};
+
+/// A scalar of the caller's at the vertices, such as a curvature.
+struct VertexScalar {
+  std::string name;                     ///< becomes the property "v:" + name
+  std::span<const double> values = {};  ///< one per vertex
+};
+
+/// What comes along with the positions and triangles.
+struct ImportOptions {
+  bool normals = true;   ///< normals, where the mesh has them
+  bool edge_ids = true;  ///< names of dual edges, where the mesh has them
+  std::vector<VertexScalar> scalars = {};
+};
+
+/// Why a face was refused. A mesh of reconstruct() loses none.
+enum class Refusal : std::uint8_t {
+  index_out_of_range,  ///< an index is no vertex
+  degenerate,          ///< an index comes twice
+  /// Another face runs along an edge the same way: three faces on an edge, a face flipped or twice.
+  /// Of those in conflict the one with most such edges goes, of equals the last.
+  edge_taken,
+  /// The faces round a vertex are not one fan: a bow-tie. The largest fan stays, of equals the one
+  /// with the first face.
+  vertex_taken,
+};
+
+struct RefusedFace {
+  std::int64_t triangle = 0;  ///< its index in the source
+  Refusal reason = Refusal::degenerate;
+};
+
+/// Facts about one import. Faces keep their order, so that the n-th face that was not refused is the
+/// n-th new one.
+struct ImportReport {
+  std::int64_t vertices = 0;              ///< added; all of the source, those without a face too
+  std::int64_t edges = 0;                 ///< added
+  std::int64_t faces = 0;                 ///< added
+  std::vector<RefusedFace> refused = {};  ///< by ascending triangle
+};
+
+/// A new mesh of the library asked for, and the facts.
+template <class LibraryMesh>
+struct Import {
+  LibraryMesh mesh;
+  ImportReport report;
+};
+
+}  // namespace difmesh
