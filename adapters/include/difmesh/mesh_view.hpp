@@ -105,6 +105,25 @@ struct ImportReport {
   std::vector<RefusedFace> refused = {};  ///< by ascending triangle
 };
 
+#ifdef DIFMESH_HAS_C_MESH
+/// The arrays of a mesh that came back from another library as a C mesh, for dif_fractions_from_mesh()
+/// and others. To be freed by dif_mesh_free().
+/// \throw Error invalid_argument with the message of libdifmesh
+[[nodiscard]] inline dif_mesh* to_dif_mesh(const Mesh& mesh) {
+  const MeshView view(mesh);
+  dif_mesh* result = nullptr;
+  if (dif_mesh_from_arrays(view.positions, view.vertices, view.indices, view.triangles, &result) !=
+          DIF_OK ||
+      dif_mesh_set_normals(result, view.normals) != DIF_OK ||
+      dif_mesh_set_edge_ids(result, view.edge_ids) != DIF_OK) {
+    const std::string message = dif_last_message();
+    dif_mesh_free(result);
+    throw Error(ErrorCode::invalid_argument, message);
+  }
+  return result;
+}
+#endif
+
 /// A new mesh of the library asked for, and the facts.
 template <class LibraryMesh>
 struct Import {
