@@ -16,6 +16,8 @@ packages=(
   doctest-dev                     # tests
   libcgal-dev libopenmesh-dev     # tests: independent checks of meshes
   abigail-tools                   # tests: the C interface keeps its ABI
+  clang                           # tests: warnings in installed headers
+  libeigen3-dev                   # examples with CGAL
   clang-format git                # tests: formatting
 )
 if [ "${1:-}" = "--bench" ]; then

@@ -95,6 +95,12 @@ class IndexedItems {
   std::uint32_t first_face_;
 };
 
+/// Outside of the class below, whose own halfedge() would hide that of the graph.
+template <class Graph>
+[[nodiscard]] HalfedgeOf<Graph> new_edge(Graph& graph) {
+  return halfedge(add_edge(graph), graph);
+}
+
 /// New items of any MutableFaceGraph, which can only be asked for them one by one.
 template <class Graph>
 class GraphItems {
@@ -110,8 +116,7 @@ class GraphItems {
     }
     edges_.reserve(halfedges.edges);
     for (std::uint32_t e = 0; e < halfedges.edges; ++e) {
-      using CGAL::halfedge;
-      edges_.push_back(halfedge(add_edge(graph), graph));
+      edges_.push_back(new_edge(graph));
     }
     faces_.reserve(corners.count / 3);
     for (std::uint32_t f = 0; f < corners.count / 3; ++f) {
