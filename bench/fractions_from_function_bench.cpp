@@ -26,12 +26,13 @@ Grid cubic_grid(double half, double spacing) {
   return {{cells, cells, cells}, {origin, origin, origin}, {spacing, spacing, spacing}};
 }
 
-void measure(benchmark::State& state, const Grid& grid, const FunctionBatch& f) {
+template <class Sample>
+void measure(benchmark::State& state, const Grid& grid, const Sample& sample) {
   difmesh::FractionsFromFunctionOptions options;
   options.threads = 1;
   difmesh::FractionsFromFunctionReport report;
   for (auto _ : state) {
-    const auto result = difmesh::fractions_from_function(grid, f, options);
+    const auto result = sample(grid, options);
     report = result.report;
     benchmark::DoNotOptimize(result.fractions.data());
   }
@@ -44,25 +45,31 @@ void measure(benchmark::State& state, const Grid& grid, const FunctionBatch& f) 
       1e9 * report.seconds.lattice / static_cast<double>(grid.cell_count());
 }
 
+void measure_function(benchmark::State& state, const Grid& grid, const FunctionBatch& f) {
+  measure(state, grid, [&](const Grid& on, const difmesh::FractionsFromFunctionOptions& options) {
+    return difmesh::fractions_from_function(on, f, options);
+  });
+}
+
 // R / spacing is the argument.
 void sphere_by_square(benchmark::State& state) {
   const auto radius = static_cast<double>(state.range(0));
-  measure(state, cubic_grid(radius + 0.5, 1.0), difmesh::batch_of([=](const Vec3& p) {
-            const double x = p[0] - kCentre[0];
-            const double y = p[1] - kCentre[1];
-            const double z = p[2] - kCentre[2];
-            return x * x + y * y + z * z - radius * radius;
-          }));
+  measure_function(state, cubic_grid(radius + 0.5, 1.0), difmesh::batch_of([=](const Vec3& p) {
+                     const double x = p[0] - kCentre[0];
+                     const double y = p[1] - kCentre[1];
+                     const double z = p[2] - kCentre[2];
+                     return x * x + y * y + z * z - radius * radius;
+                   }));
 }
 
 void sphere_by_distance(benchmark::State& state) {
   const auto radius = static_cast<double>(state.range(0));
-  measure(state, cubic_grid(radius + 0.5, 1.0), difmesh::batch_of([=](const Vec3& p) {
-            const double x = p[0] - kCentre[0];
-            const double y = p[1] - kCentre[1];
-            const double z = p[2] - kCentre[2];
-            return std::sqrt(x * x + y * y + z * z) - radius;
-          }));
+  measure_function(state, cubic_grid(radius + 0.5, 1.0), difmesh::batch_of([=](const Vec3& p) {
+                     const double x = p[0] - kCentre[0];
+                     const double y = p[1] - kCentre[1];
+                     const double z = p[2] - kCentre[2];
+                     return std::sqrt(x * x + y * y + z * z) - radius;
+                   }));
 }
 
 // Kind of the shape and cells across it are the arguments.
@@ -78,7 +85,9 @@ void shape(benchmark::State& state) {
   }
   state.SetLabel(std::string(difmesh::shape_name(options.kind)));
   measure(state, cubic_grid(half, 2.0 * half / static_cast<double>(state.range(1))),
-          shape.function());
+          [&](const Grid& grid, const difmesh::FractionsFromFunctionOptions& settings) {
+            return difmesh::fractions_from_shape(grid, shape, settings);
+          });
 }
 
 void distance(benchmark::State& state) {

@@ -35,7 +35,7 @@ constexpr const char* kDescription =
     "\n"
     "The body is sphere, ellipsoid, torus, genus, smooth_box or golf_ball, by quadrature to 1e-10 "
     "per\n"
-    "cell where it is smooth; or a mesh file (.ply, .obj, .off or .stl), exactly. Its grid is its\n"
+    "cell; or a mesh file (.ply, .obj, .off or .stl), exactly. Its grid is its\n"
     "bounding box and three cells more on every side. FIELD is .nrrd, which holds origin and "
     "spacing,\n"
     "or .npy, which does not: they are printed.\n";
@@ -85,7 +85,7 @@ Sample sample_shape(const Request& request, LongCall& long_call) {
   FractionsFromFunctionOptions options;
   options.threads = request.threads;
   options.progress = long_call.progress();
-  FractionsFromFunction result = fractions_from_function(sample.grid, shape.function(), options);
+  FractionsFromFunction result = fractions_from_shape(sample.grid, shape, options);
   sample.fractions = std::move(result.fractions);
   sample.fraction_volume = result.report.fraction_volume;
   sample.interfacial_cells = result.report.interfacial_cells;

@@ -181,7 +181,7 @@ dif_status dif_fractions_from_shape(const dif_grid* grid, const dif_shape* shape
     if (given.gradient) {
       capi::fail_argument("options: gradient must be NULL, shapes have their own");
     }
-    hand_over(fractions_from_function(cells, body.function(), given), report, fractions);
+    hand_over(fractions_from_shape(cells, body, given), report, fractions);
   });
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "first_error.hpp"
 #include "parallel.hpp"
 #include "position_text.hpp"
+#include "shape_field.hpp"
 #include "stopwatch.hpp"
 
 namespace difmesh {
@@ -74,10 +76,12 @@ struct Tally {
 class CandidateIntegration {
  public:
   CandidateIntegration(const Grid& grid, const FunctionBatch& f,
-                       const FractionsFromFunctionOptions& options, std::span<double> fractions)
+                       const FractionsFromFunctionOptions& options,
+                       const detail::KnownFraction& known, std::span<double> fractions)
       : grid_(grid),
         f_(f),
         options_(options),
+        known_(known),
         fractions_(fractions),
         rounding_(rounding_of(grid)) {}
 
@@ -94,7 +98,12 @@ class CandidateIntegration {
         low[a] = grid_.origin[a] + static_cast<double>(index % grid_.dims[a]) * grid_.spacing[a];
         index /= grid_.dims[a];
       }
-      const auto result = quadrature.integrate(f, low, grid_.spacing, candidate.corners);
+      CellQuadrature::Result result;
+      if (const auto known = known_ ? known_(low, grid_.spacing) : std::nullopt) {
+        result.fraction = *known;
+      } else {
+        result = quadrature.integrate(f, low, grid_.spacing, candidate.corners);
+      }
       const double fraction = snap(result.fraction);
       fractions_[static_cast<std::size_t>(candidate.cell)] = fraction;
       tally.sum += fraction;
@@ -119,6 +128,7 @@ class CandidateIntegration {
   const Grid& grid_;
   const FunctionBatch& f_;
   const FractionsFromFunctionOptions& options_;
+  const detail::KnownFraction& known_;
   std::span<double> fractions_;
   double rounding_;
 };
@@ -148,6 +158,12 @@ void fill_report(FractionsFromFunctionReport& report, const detail::Screening& s
 
 FractionsFromFunction fractions_from_function(const Grid& grid, const FunctionBatch& f,
                                               const FractionsFromFunctionOptions& options) {
+  return detail::fractions_with_known_cells(grid, f, options, {});
+}
+
+FractionsFromFunction detail::fractions_with_known_cells(
+    const Grid& grid, const FunctionBatch& f, const FractionsFromFunctionOptions& options,
+    const KnownFraction& known) {
   detail::Stopwatch whole;
   detail::Stopwatch phase;
   check(grid, f, options);
@@ -162,7 +178,7 @@ FractionsFromFunction fractions_from_function(const Grid& grid, const FunctionBa
 
   const std::span<const CellCandidate> candidates = screening.candidates;
   const auto count = static_cast<std::int64_t>(candidates.size());
-  const CandidateIntegration integration(grid, f, options, result.fractions);
+  const CandidateIntegration integration(grid, f, options, known, result.fractions);
   std::vector<Tally> tallies(
       static_cast<std::size_t>((count + kCellsPerPortion - 1) / kCellsPerPortion));
   detail::FirstError error;

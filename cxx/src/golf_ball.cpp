@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "ball_overlap.hpp"
 #include "difmesh/error.hpp"
 #include "position_text.hpp"
 
@@ -204,6 +205,40 @@ std::optional<double> GolfBallModel::volume() const {
                       cap_volume(dimple_radius_, dimple_radius_ - (dimple_centre_ - rim_height_));
   return 4.0 / 3.0 * std::numbers::pi * radius_ * radius_ * radius_ -
          static_cast<double>(dimples_.directions().size()) * lens;
+}
+
+bool GolfBallModel::rim_within(const Vec3& u, double reach) const {
+  const double square = dot(u, u);
+  if (std::abs(std::sqrt(square) - radius_) > reach) {
+    return false;  // rims are on the sphere
+  }
+  const auto& axes = dimples_.directions();
+  return std::any_of(axes.begin(), axes.end(), [&](const Vec3& axis) {
+    const double height = dot(u, axis);
+    const double across = std::sqrt(std::max(0.0, square - height * height));
+    return std::hypot(across - rim_radius_, height - rim_height_) <= reach;
+  });
+}
+
+std::optional<double> GolfBallModel::known_fraction(const Frame& frame, const Vec3& low,
+                                                    const Vec3& size) const {
+  const Vec3 high = plus(low, 1.0, size);
+  const Vec3 u = frame.to_local(plus(low, 0.5, size));
+  constexpr double kRounding = 1e-9;
+  const double reach = (0.5 + kRounding) * length(size);
+  if (!rim_within(u, reach)) {
+    return std::nullopt;
+  }
+  std::array<Ball, 2> balls{{{frame.centre(), radius_}, {{}, dimple_radius_}}};
+  double volume = ball_overlap(low, high, {balls.data(), 1});
+  for (const Vec3& axis : dimples_.directions()) {
+    const Vec3 centre = plus({}, dimple_centre_, axis);
+    if (length(plus(u, -1.0, centre)) < dimple_radius_ + reach) {
+      balls[1].centre = frame.to_space(centre);
+      volume -= ball_overlap(low, high, balls);
+    }
+  }
+  return volume / (size[0] * size[1] * size[2]);
 }
 
 }  // namespace difmesh::detail

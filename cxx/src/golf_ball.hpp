@@ -41,8 +41,14 @@ class GolfBallModel {
   [[nodiscard]] double distance(const Vec3& u) const;
   [[nodiscard]] Extent extent(const Vec3&) const { return {radius_, radius_}; }
   [[nodiscard]] std::optional<double> volume() const;
+  /// Of cells that rims cross: the ball's overlap less those of the lenses taken away, which do not
+  /// overlap one another.
+  [[nodiscard]] std::optional<double> known_fraction(const Frame& frame, const Vec3& low,
+                                                     const Vec3& size) const;
 
  private:
+  [[nodiscard]] bool rim_within(const Vec3& u, double reach) const;
+
   double radius_;  // R
   double rim_radius_;
   double rim_height_;     // of its plane above the ball's centre

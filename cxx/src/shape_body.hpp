@@ -40,6 +40,9 @@ class Frame {
   [[nodiscard]] Vec3 space_axis(std::size_t axis) const {
     return {axes_[0][axis], axes_[1][axis], axes_[2][axis]};
   }
+  [[nodiscard]] Vec3 to_space(const Vec3& u) const {
+    return plus(centre_, 1.0, direction_to_space(u));
+  }
   [[nodiscard]] const Vec3& centre() const { return centre_; }
 
  private:
@@ -59,11 +62,16 @@ class ShapeBody {
   virtual void distances(std::span<const Vec3> points, std::span<double> out) const = 0;
   [[nodiscard]] virtual Bounds bounds() const = 0;
   [[nodiscard]] virtual std::optional<double> volume() const = 0;
+  /// Whether known_fraction() ever knows one.
+  [[nodiscard]] virtual bool knows_fractions() const = 0;
+  /// The fraction of a cell in which quadrature would be slow, where there is another way.
+  [[nodiscard]] virtual std::optional<double> known_fraction(const Vec3& low,
+                                                             const Vec3& size) const = 0;
 };
 
 /// A body from a model in its own coordinates, which offers value(u), gradient(u), distance(u),
 /// volume() and extent(d): how far the shape reaches along the unit vectors d and -d, from its
-/// centre.
+/// centre; and perhaps known_fraction(frame, low, size), for cells in space.
 template <class Model>
 class ModelBody final : public ShapeBody {
  public:
@@ -96,8 +104,21 @@ class ModelBody final : public ShapeBody {
     return result;
   }
   [[nodiscard]] std::optional<double> volume() const override { return model_.volume(); }
+  [[nodiscard]] bool knows_fractions() const override { return kKnowsFractions; }
+  [[nodiscard]] std::optional<double> known_fraction(const Vec3& low,
+                                                     const Vec3& size) const override {
+    if constexpr (kKnowsFractions) {
+      return model_.known_fraction(frame_, low, size);
+    } else {
+      return std::nullopt;
+    }
+  }
 
  private:
+  static constexpr bool kKnowsFractions = requires(const Model& model, const Frame& frame) {
+    model.known_fraction(frame, Vec3{}, Vec3{});
+  };
+
   Frame frame_;
   Model model_;
 };

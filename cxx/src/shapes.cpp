@@ -13,6 +13,7 @@
 #include "position_text.hpp"
 #include "round_shapes.hpp"
 #include "shape_body.hpp"
+#include "shape_field.hpp"
 #include "smooth_box.hpp"
 
 namespace difmesh {
@@ -201,6 +202,17 @@ Shape make_shape(const ShapeOptions& options) {
   check_finite("centre", options.centre);
   check_finite("rotation_degrees", options.rotation_degrees);
   return {options, make_body(options)};
+}
+
+FractionsFromFunction fractions_from_shape(const Grid& grid, const Shape& shape,
+                                           const FractionsFromFunctionOptions& options) {
+  detail::KnownFraction known;
+  if (shape.body_->knows_fractions()) {
+    known = [&body = *shape.body_](const Vec3& low, const Vec3& size) {
+      return body.known_fraction(low, size);
+    };
+  }
+  return detail::fractions_with_known_cells(grid, shape.function(), options, known);
 }
 
 std::span<const std::string_view> shape_names() noexcept {

@@ -27,7 +27,8 @@ struct FractionsFromFunctionOptions {
   double tolerance = 1e-10;
   /// The same where f turns out to have a kink in a cell, if that is larger; [1e-13, 1e-2]. Two
   /// digits more cost about twice as many evaluations there. The true error mostly is ten times
-  /// less.
+  /// less, but a kink that cuts off no more than a corner of a cell may go unseen: of 1230 cells
+  /// that the rims of a golf ball crossed, 8 were off by more than 1e-5, one by 8e-5.
   double kink_tolerance = 1e-5;
   /// Where a cell has used up this many evaluations, what is left of it is estimated roughly and
   /// the cell counts as unresolved; [1000, 1e9].
