@@ -10,15 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "difmesh/io/mesh_file.hpp"
-#include "difmesh/mesh.hpp"
 #include "io/files.hpp"
 #include "program.hpp"
 #include "support/triangle_meshes.hpp"
 
 namespace {
 
-using difmesh::Mesh;
 using difmesh::Vec3;
 using difmesh::test::box_mesh;
 using difmesh::test::check_fails;
@@ -27,6 +24,7 @@ using difmesh::test::fact;
 using difmesh::test::Outcome;
 using difmesh::test::run_program;
 using difmesh::test::TriangleMesh;
+using difmesh::test::write_triangles;
 using nlohmann::json;
 using std::numbers::pi;
 using test::TempFolder;
@@ -37,11 +35,7 @@ struct Place {
 
   [[nodiscard]] std::string path(const std::string& name) const { return (folder / name).string(); }
   [[nodiscard]] std::string write(const std::string& name, const TriangleMesh& mesh) const {
-    Mesh written;
-    written.positions.assign(mesh.positions.begin(), mesh.positions.end());
-    written.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
-    difmesh::write_mesh(path(name), written);
-    return path(name);
+    return write_triangles(folder / name, mesh).string();
   }
   [[nodiscard]] json compare(const std::string& mesh, const Words& options) const {
     Words arguments{"compare", mesh, "--json", path("report.json")};

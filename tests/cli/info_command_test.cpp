@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "difmesh/io/field_file.hpp"
-#include "difmesh/io/mesh_file.hpp"
 #include "io/files.hpp"
 #include "program.hpp"
 #include "support/triangle_meshes.hpp"
@@ -17,7 +16,6 @@
 namespace {
 
 using difmesh::Grid;
-using difmesh::Mesh;
 using difmesh::Vec3;
 using difmesh::test::box_mesh;
 using difmesh::test::check_fails;
@@ -27,6 +25,7 @@ using difmesh::test::Outcome;
 using difmesh::test::OwnedField;
 using difmesh::test::run_program;
 using difmesh::test::TriangleMesh;
+using difmesh::test::write_triangles;
 using test::TempFolder;
 using Words = std::vector<std::string>;
 
@@ -57,15 +56,6 @@ std::string info(const std::filesystem::path& path, Words options = {}) {
 nlohmann::json info_json(const std::filesystem::path& path, Words options = {}) {
   options.insert(options.end(), {"--json", "-"});
   return nlohmann::json::parse(info(path, options));
-}
-
-std::filesystem::path write_soup(const TempFolder& folder, const std::string& name,
-                                 const TriangleMesh& soup) {
-  Mesh mesh;
-  mesh.positions.assign(soup.positions.begin(), soup.positions.end());
-  mesh.triangles.assign(soup.triangles.begin(), soup.triangles.end());
-  write_mesh(folder / name, mesh);
-  return folder / name;
 }
 
 }  // namespace
@@ -206,7 +196,7 @@ TEST_CASE("info measures a closed mesh") {
   const Vec3 high{1, 5, 1.5};
   for (const std::string name : {"box.ply", "box.obj", "box.off", "box.stl", "BOX.PLY"}) {
     CAPTURE(name);
-    const auto path = write_soup(folder, name, box_mesh(low, high));
+    const auto path = write_triangles(folder / name, box_mesh(low, high));
     const std::string text = info(path);
     CHECK(fact(text, "mesh") == path.string());
     CHECK(fact(text, "vertices") == "8");
@@ -230,7 +220,7 @@ TEST_CASE("info tells what is wrong with a mesh") {
   soup.append(box_mesh({2, 0, 0}, {3, 1, 1}));
   soup.positions.push_back({9, 9, 9});
   soup.triangles.push_back({8, 8, 9});
-  const std::string open = info(write_soup(folder, "open.ply", soup));
+  const std::string open = info(write_triangles(folder / "open.ply", soup));
   CHECK(fact(open, "vertices") == "17, of these in no triangle: 1");
   CHECK(fact(open, "triangles") == "24, of these without area: 1");
   CHECK(fact(open, "closed") == "no: 3 boundary edges");
@@ -246,14 +236,14 @@ TEST_CASE("info tells what is wrong with a mesh") {
 
   TriangleMesh fins{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}},
                     {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}}};
-  const std::string bad = info(write_soup(folder, "fins.ply", fins));
+  const std::string bad = info(write_triangles(folder / "fins.ply", fins));
   CHECK(fact(bad, "manifold") ==
         "no: 1 non-manifold edge, 2 non-manifold vertices, 0 misoriented edges");
   CHECK(fact(bad, "roughness").starts_with("none"));
 
   TriangleMesh mixed = box_mesh({0, 0, 0}, {1, 1, 1});
   std::swap(mixed.triangles[7][0], mixed.triangles[7][1]);
-  const std::string turned = info(write_soup(folder, "turned.ply", mixed));
+  const std::string turned = info(write_triangles(folder / "turned.ply", mixed));
   CHECK(fact(turned, "closed") == "yes");
   CHECK(fact(turned, "manifold").ends_with("3 misoriented edges"));
   CHECK(fact(turned, "enclosed volume") == "none, the mesh has mixed orientation");
@@ -262,7 +252,7 @@ TEST_CASE("info tells what is wrong with a mesh") {
 
 TEST_CASE("info in JSON goes to the file and nothing is printed") {
   const TempFolder folder;
-  const auto mesh = write_soup(folder, "box.ply", box_mesh({0, 0, 0}, {1, 2, 3}));
+  const auto mesh = write_triangles(folder / "box.ply", box_mesh({0, 0, 0}, {1, 2, 3}));
   const auto path = folder / "info.json";
   CHECK(info(mesh, {"--json", path.string()}).empty());
   const nlohmann::json json = nlohmann::json::parse(test::read_bytes(path));

@@ -13,6 +13,8 @@
 #include <csignal>
 #include <utility>
 
+#include "difmesh/io/mesh_file.hpp"
+#include "difmesh/mesh.hpp"
 #include "io/files.hpp"
 
 namespace difmesh::test {
@@ -166,6 +168,14 @@ std::string fact(const std::string& text, const std::string& name) {
   REQUIRE(line != std::string::npos);
   const std::size_t value = lines.find_first_not_of(' ', line + 1 + name.size());
   return lines.substr(value, lines.find('\n', value) - value);
+}
+
+std::filesystem::path write_triangles(const std::filesystem::path& path, const TriangleMesh& mesh) {
+  Mesh written;
+  written.positions.assign(mesh.positions.begin(), mesh.positions.end());
+  written.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
+  write_mesh(path, written);
+  return path;
 }
 
 OwnedField box_field(const Grid& grid, const Vec3& low, const Vec3& high) {

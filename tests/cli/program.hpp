@@ -12,6 +12,7 @@
 
 #include "difmesh/grid.hpp"
 #include "support/fields.hpp"
+#include "support/triangle_meshes.hpp"
 
 namespace difmesh::test {
 
@@ -47,6 +48,9 @@ void check_succeeds(const Outcome& outcome);
 
 /// The value printed after a name at the start of a line; fails the test where there is none.
 [[nodiscard]] std::string fact(const std::string& text, const std::string& name);
+
+/// Writes a mesh as the library does. Returns its path.
+std::filesystem::path write_triangles(const std::filesystem::path& path, const TriangleMesh& mesh);
 
 /// Exact fractions of the box from `low` to `high`: products of lengths.
 [[nodiscard]] OwnedField box_field(const Grid& grid, const Vec3& low, const Vec3& high);

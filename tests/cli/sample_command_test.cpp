@@ -39,6 +39,7 @@ using difmesh::test::Outcome;
 using difmesh::test::run_program;
 using difmesh::test::same_bits;
 using difmesh::test::TriangleMesh;
+using difmesh::test::write_triangles;
 using std::numbers::pi;
 using test::TempFolder;
 using Words = std::vector<std::string>;
@@ -99,12 +100,7 @@ struct Place {
     return read_sampled(field);
   }
   [[nodiscard]] std::string write(const std::string& name, const TriangleMesh& mesh) const {
-    const std::string path = (folder / name).string();
-    Mesh written;
-    written.positions.assign(mesh.positions.begin(), mesh.positions.end());
-    written.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
-    difmesh::write_mesh(path, written);
-    return path;
+    return write_triangles(folder / name, mesh).string();
   }
 };
 
