@@ -1,5 +1,6 @@
 #pragma once
-// How numbers and positions look in messages. Not to_text(), which is what io has in this namespace.
+// How numbers and positions look in messages. Not to_text(), which is what io has in this
+// namespace.
 
 #include <array>
 #include <cstdio>
