@@ -16,6 +16,9 @@ endif()
 set(difmesh_io_needs "ZLIB")
 # Users of the adapters bring OpenMesh or CGAL themselves.
 set(difmesh_adapters_needs "")
+if(DIFMESH_WITH_DRACO)
+  list(APPEND difmesh_io_needs "draco CONFIG")
+endif()
 set(difmesh_metrics_needs "embree 3 CONFIG" "TBB CONFIG COMPONENTS tbb")
 # libdifmesh.so brings all it needs.
 set(difmesh_capi_parts "")

@@ -11,7 +11,8 @@ packages=(
   g++ cmake ninja-build           # to build
   libtbb-dev                      # the core's threads
   zlib1g-dev                      # readers and writers of files
-  libcli11-dev nlohmann-json3-dev # the program
+  libcli11-dev nlohmann-json3-dev # the program, glTF
+  libdraco-dev                    # compressed meshes
   libembree-dev                   # distances between surfaces
   doctest-dev                     # tests
   libcgal-dev libopenmesh-dev     # tests: independent checks of meshes

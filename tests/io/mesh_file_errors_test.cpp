@@ -65,10 +65,11 @@ TEST_CASE("meshes that are none are not written") {
   Mesh large = triangle();
   large.positions[2][0] = -1e39;
   refused(large, "m.stl", ErrorCode::invalid_value, {"m.stl", "vertex 2", "float32"});
-  for (const char* name : {"m.gltf", "m", "m.ply.gz", "ply"}) {
-    refused(triangle(), name, ErrorCode::invalid_argument, {name, ".ply, .obj, .off and .stl"});
+  for (const char* name : {"m.fbx", "m", "m.ply.gz", "ply"}) {
+    refused(triangle(), name, ErrorCode::invalid_argument,
+            {name, ".ply, .obj, .off, .stl, .glb, .gltf and .drc"});
     check_error([&] { (void)difmesh::read_mesh(folder / name); }, ErrorCode::file_format,
-                {name, ".ply, .obj, .off and .stl"});
+                {name, ".ply, .obj, .off, .stl, .glb, .gltf and .drc"});
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file mesh_file.hpp
-/// Triangle meshes in files: PLY, OBJ, OFF and STL.
+/// Triangle meshes in files: PLY, OBJ, OFF, STL, glTF and Draco.
 
 #include <cstdint>
 #include <filesystem>
@@ -17,6 +17,10 @@ enum class MeshFormat : std::uint8_t {
   obj,  ///< text; positions and normals bit for bit
   off,  ///< text; positions and, as NOFF, normals bit for bit
   stl,  ///< binary; positions rounded to float32 by the format, nothing shared between triangles
+  glb,  ///< binary glTF; positions rounded to float32 about the centre, with normals (computed where
+        ///< there are none) and edge ids; no empty mesh. Its options: gltf_file.hpp
+  gltf,  ///< the same as text
+  drc,   ///< Draco: coordinates rounded to steps, the order changed; see draco_file.hpp
 };
 
 struct WriteMeshOptions {
@@ -39,7 +43,8 @@ void write_mesh(const std::filesystem::path& path, const Mesh& mesh,
                 const WriteMeshOptions& options = {});
 
 /// Reads a mesh; the extension of the path, in any case of letters, tells the format. Vertices and
-/// faces keep their order; polygons become fans of triangles about their first corner.
+/// faces keep their order; polygons become fans of triangles about their first corner. For glTF and
+/// Draco see read_gltf() and read_drc().
 /// - PLY, text or binary of either byte order: other elements and properties are skipped.
 /// - OBJ: normals are taken where every corner `v//n` has n = v; groups, materials and texture
 ///   coordinates are skipped.

@@ -1,0 +1,154 @@
+// Draco's own files.
+
+#include "drc.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "atomic_file.hpp"
+#include "difmesh/error.hpp"
+#include "difmesh/io/draco_file.hpp"
+#include "draco_codec.hpp"
+#include "input_file.hpp"
+#include "mesh_check.hpp"
+#include "packed_surface.hpp"
+#include "text.hpp"
+
+namespace difmesh {
+namespace {
+
+using namespace detail;
+
+double largest_coordinate(const Mesh& mesh) {
+  double largest = 0.0;
+  for (const Vec3& position : mesh.positions) {
+    for (const double coordinate : position) {
+      largest = std::max(largest, std::abs(coordinate));
+    }
+  }
+  return largest;
+}
+
+/// Most programs know nothing of the origin in the metadata: only where it is needed.
+Vec3 drc_origin(const Mesh& mesh, int position_bits) {
+  const Vec3 centre = centre_of(mesh.positions);
+  double reach = 0.0;
+  for (const Vec3& position : mesh.positions) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      reach = std::max(reach, std::abs(position[axis] - centre[axis]));
+    }
+  }
+  const double step = 2.0 * reach / (std::exp2(position_bits) - 1.0);
+  const bool is_fine = largest_coordinate(mesh) * 0x1p-24 <= step / 8.0;
+  return is_fine ? Vec3{0, 0, 0} : centre;
+}
+
+/// "_EDGE_ID" of four digits, as glTF has it.
+bool is_edge_ids(const DecodedAttribute& attribute) {
+  return attribute.name == "_EDGE_ID" && attribute.components == 4 && attribute.is_integer;
+}
+
+Array<Vec3> vectors_of(const std::filesystem::path& path, const DecodedAttribute& attribute,
+                       const char* what) {
+  if (attribute.components != 3) {
+    fail_format(path, std::string(what) + " of Draco have " + std::to_string(attribute.components) +
+                          " components");
+  }
+  Array<Vec3> vectors(attribute.values.size() / 3);
+  for (std::size_t v = 0; v < vectors.size(); ++v) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      vectors[v][axis] = attribute.values[3 * v + axis];
+      if (!std::isfinite(vectors[v][axis])) {
+        fail_format(path,
+                    std::string(what) + " of Draco: not finite at point " + std::to_string(v));
+      }
+    }
+  }
+  return vectors;
+}
+
+}  // namespace
+
+DracoReport write_drc(const std::filesystem::path& path, const Mesh& mesh,
+                      const WriteDrcOptions& options) {
+  check_mesh(path, mesh);
+  check_scalars(path, mesh, options.scalars);
+  check_draco(path, options.draco);
+  if (mesh.triangles.empty()) {
+    fail_write(ErrorCode::invalid_value, path, "the mesh has no triangles to compress");
+  }
+  const int bits = position_bits_of(mesh, options.draco);
+  const Vec3 origin = drc_origin(mesh, bits);
+  const WriteGltfOptions content{.normals = options.normals && !mesh.normals.empty(),
+                                 .edge_ids = options.edge_ids,
+                                 .scalars = options.scalars};
+  const PackedSurface surface = pack({path, mesh, content, origin});
+  const EncodedDraco encoded =
+      encode_draco(path, surface.primitives.front(), options.draco, bits, origin);
+  AtomicFile file(path);
+  file.write(encoded.bytes.data(), encoded.bytes.size());
+  file.commit();
+  return {.bytes = static_cast<std::int64_t>(encoded.bytes.size()),
+          .vertices = static_cast<std::int64_t>(encoded.points),
+          .triangles = static_cast<std::int64_t>(encoded.faces),
+          .position_bits = bits,
+          .position_error = encoded.position_error};
+}
+
+namespace detail {
+
+ScalarMesh decode_drc(const std::filesystem::path& path, std::span<const char> bytes) {
+  DecodedDraco decoded = decode_draco(path, bytes);
+  ScalarMesh result;
+  result.mesh.triangles = std::move(decoded.triangles);
+  bool with_positions = false;
+  for (const DecodedAttribute& attribute : decoded.attributes) {
+    if (attribute.kind == DracoKind::position && !with_positions) {
+      result.mesh.positions = vectors_of(path, attribute, "positions");
+      with_positions = true;
+    } else if (attribute.kind == DracoKind::normal && result.mesh.normals.empty()) {
+      result.mesh.normals = vectors_of(path, attribute, "normals");
+    } else if (is_edge_ids(attribute)) {
+      result.mesh.edge_ids = joined_digits(attribute.values, 4);
+    } else if (attribute.kind == DracoKind::generic && attribute.components == 1 &&
+               !attribute.name.empty()) {
+      result.scalars.push_back({attribute.name, attribute.values});
+    }
+  }
+  if (!with_positions) {
+    fail_format(path, "Draco's data hold no positions");
+  }
+  const Vec3 origin = decoded.origin.value_or(Vec3{0, 0, 0});
+  for (Vec3& position : result.mesh.positions) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      position[axis] += origin[axis];
+      if (!std::isfinite(position[axis])) {
+        fail_format(path, "the origin in Draco's metadata is not finite");
+      }
+    }
+  }
+  return result;
+}
+
+Array<std::uint64_t> joined_digits(const Array<double>& digits, std::size_t count) {
+  Array<std::uint64_t> numbers(digits.size() / count);
+  for (std::size_t n = 0; n < numbers.size(); ++n) {
+    std::uint64_t number = 0;
+    for (std::size_t digit = count; digit-- > 0;) {
+      number = (number << 16U) | (static_cast<std::uint64_t>(digits[n * count + digit]) & 0xFFFFU);
+    }
+    numbers[n] = number;
+  }
+  return numbers;
+}
+
+}  // namespace detail
+
+ScalarMesh read_drc(const std::filesystem::path& path) {
+  const InputFile file(path);
+  const Array<char> bytes = file.read_text(0, file.size());
+  return decode_drc(path, bytes);
+}
+
+}  // namespace difmesh

@@ -1,0 +1,37 @@
+// In place of gltf_*.cpp where the library is built without glTF.
+
+#include "difmesh/error.hpp"
+#include "difmesh/io/gltf_file.hpp"
+#include "gltf_write.hpp"
+#include "mesh_check.hpp"
+#include "text.hpp"
+
+namespace difmesh {
+namespace {
+
+constexpr const char* kMatter = "difmesh was built without glTF (DIFMESH_WITH_GLTF)";
+
+}  // namespace
+
+namespace detail {
+
+GltfReport write_gltf_as(const std::filesystem::path& path, const Mesh&, const WriteGltfOptions&,
+                         bool) {
+  fail_write(ErrorCode::invalid_argument, path, kMatter);
+}
+
+}  // namespace detail
+
+GltfReport write_gltf(const std::filesystem::path& path, const Mesh&, const WriteGltfOptions&) {
+  detail::fail_write(ErrorCode::invalid_argument, path, kMatter);
+}
+
+std::vector<char> encode_glb(const Mesh&, const WriteGltfOptions&, GltfReport*) {
+  throw Error(ErrorCode::invalid_argument, kMatter);
+}
+
+ScalarMesh read_gltf(const std::filesystem::path& path) {
+  throw Error(ErrorCode::file_format, detail::quoted(path) + ": " + kMatter);
+}
+
+}  // namespace difmesh

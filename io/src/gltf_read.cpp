@@ -1,0 +1,288 @@
+#include "gltf_read.hpp"
+
+#include <array>
+#include <cmath>
+#include <deque>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "difmesh/io/gltf_file.hpp"
+#include "gltf_primitive.hpp"
+#include "gltf_source.hpp"
+#include "input_file.hpp"
+
+namespace difmesh {
+namespace detail {
+namespace {
+
+/// Extensions that a file may require: those that we know, and those that leave geometry alone.
+bool is_harmless(std::string_view extension) {
+  return extension == "KHR_draco_mesh_compression" || extension == "KHR_mesh_quantization" ||
+         extension.starts_with("KHR_materials_") || extension.starts_with("KHR_texture_") ||
+         extension.starts_with("EXT_texture_") || extension == "KHR_lights_punctual" ||
+         extension == "KHR_xmp_json_ld";
+}
+
+/// x -> linear x + shift.
+struct Affine {
+  std::array<Vec3, 3> linear{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< rows
+  Vec3 shift{0, 0, 0};
+
+  [[nodiscard]] Vec3 turned(const Vec3& v) const {
+    Vec3 result{};
+    for (std::size_t r = 0; r < 3; ++r) {
+      result[r] = linear[r][0] * v[0] + linear[r][1] * v[1] + linear[r][2] * v[2];
+    }
+    return result;
+  }
+  [[nodiscard]] Vec3 operator()(const Vec3& v) const {
+    const Vec3 t = turned(v);
+    return {t[0] + shift[0], t[1] + shift[1], t[2] + shift[2]};
+  }
+  /// First the other, then this.
+  [[nodiscard]] Affine after(const Affine& first) const {
+    Affine both;
+    for (std::size_t r = 0; r < 3; ++r) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        both.linear[r][c] = linear[r][0] * first.linear[0][c] + linear[r][1] * first.linear[1][c] +
+                            linear[r][2] * first.linear[2][c];
+      }
+    }
+    both.shift = (*this)(first.shift);
+    return both;
+  }
+  /// Cofactors: what normals are turned by, up to their length; and the determinant.
+  [[nodiscard]] Affine cofactors() const {
+    Affine result;
+    for (std::size_t r = 0; r < 3; ++r) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        result.linear[r][c] = linear[(r + 1) % 3][(c + 1) % 3] * linear[(r + 2) % 3][(c + 2) % 3] -
+                              linear[(r + 1) % 3][(c + 2) % 3] * linear[(r + 2) % 3][(c + 1) % 3];
+      }
+    }
+    return result;
+  }
+};
+
+template <std::size_t n>
+std::array<double, n> numbers_of(const JsonPlace& place) {
+  if (place.size() != n) {
+    place.fail("has " + std::to_string(place.size()) + " numbers, not " + std::to_string(n));
+  }
+  std::array<double, n> numbers{};
+  for (std::size_t i = 0; i < n; ++i) {
+    numbers[i] = place.at(i).finite();
+  }
+  return numbers;
+}
+
+std::array<Vec3, 3> rotation_of(const std::array<double, 4>& q) {
+  const double s = 2.0 / (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  const auto [x, y, z, w] = q;
+  return {{{1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)},
+           {s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w)},
+           {s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)}}};
+}
+
+/// The node that write_gltf() puts above the mesh where up is z or the unit no metre. Left out, the
+/// mesh comes back in the coordinates that it was written from.
+bool is_our_frame(const JsonPlace& node) {
+  if (!node.has("extras") || !node.at("extras").has("difmesh")) {
+    return false;
+  }
+  const JsonPlace extras = node.at("extras").at("difmesh");
+  return extras.has("frame") && extras.at("frame").value() == true;
+}
+
+Affine transform_of(const JsonPlace& node) {
+  Affine result;
+  if (is_our_frame(node)) {
+    return result;
+  }
+  if (node.has("matrix")) {
+    const auto m = numbers_of<16>(node.at("matrix"));
+    for (std::size_t r = 0; r < 3; ++r) {
+      result.linear[r] = {m[r], m[4 + r], m[8 + r]};
+      result.shift[r] = m[12 + r];
+    }
+    return result;
+  }
+  if (node.has("rotation")) {
+    const auto q = numbers_of<4>(node.at("rotation"));
+    if (!(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] > 0.0)) {
+      node.at("rotation").fail("is 0");
+    }
+    result.linear = rotation_of(q);
+  }
+  if (node.has("scale")) {
+    const auto scale = numbers_of<3>(node.at("scale"));
+    for (Vec3& row : result.linear) {
+      row = {row[0] * scale[0], row[1] * scale[1], row[2] * scale[2]};
+    }
+  }
+  if (node.has("translation")) {
+    result.shift = numbers_of<3>(node.at("translation"));
+  }
+  return result;
+}
+
+void move(ScalarMesh& content, const Affine& transform, const JsonPlace& node) {
+  for (Vec3& position : content.mesh.positions) {
+    position = transform(position);
+    if (!std::isfinite(position[0] + position[1] + position[2])) {
+      node.fail("moves vertices to infinity");
+    }
+  }
+  const Affine cofactors = transform.cofactors();
+  const double determinant = transform.linear[0][0] * cofactors.linear[0][0] +
+                             transform.linear[0][1] * cofactors.linear[0][1] +
+                             transform.linear[0][2] * cofactors.linear[0][2];
+  const double sense = determinant < 0.0 ? -1.0 : 1.0;
+  for (Vec3& normal : content.mesh.normals) {
+    const Vec3 turned = cofactors.turned(normal);
+    const double length = std::hypot(turned[0], turned[1], turned[2]);
+    if (length > 0.0 && std::isfinite(length)) {
+      normal = {sense * turned[0] / length, sense * turned[1] / length, sense * turned[2] / length};
+    }
+  }
+  // A mirror image is seen from the other side.
+  for (Triangle& t : content.mesh.triangles) {
+    t = determinant < 0.0 ? Triangle{t[0], t[2], t[1]} : t;
+  }
+}
+
+bool is_identity(const Affine& transform) {
+  const Affine none;
+  return transform.linear == none.linear && transform.shift == none.shift;
+}
+
+/// Walks the nodes of the scene, parents first, in their order.
+class SceneReader {
+ public:
+  explicit SceneReader(GltfSource& source)
+      : source_(source), budget_(source), seen_(source.count("nodes"), false) {}
+
+  ScalarMesh read() {
+    check_extensions();
+    push_roots();
+    while (!stack_.empty()) {
+      const Pending next = std::move(stack_.back());
+      stack_.pop_back();
+      visit(next);
+    }
+    return std::move(whole_.content);
+  }
+
+ private:
+  struct Pending {
+    JsonPlace index;
+    Affine above;
+  };
+
+  void check_extensions() const {
+    if (source_.count("extensionsRequired") == 0) {
+      return;
+    }
+    const JsonPlace required = source_.root().at("extensionsRequired");
+    for (std::size_t i = 0; i < required.size(); ++i) {
+      if (!is_harmless(required.at(i).text())) {
+        required.at(i).fail("is " + required.at(i).text() + ", which is not supported");
+      }
+    }
+  }
+
+  void push_roots() {
+    const JsonPlace root = source_.root();
+    if (source_.count("scenes") > 0) {
+      const JsonPlace scene = root.has("scene") ? source_.element("scenes", root.at("scene"))
+                                                : root.at("scenes").at(std::size_t{0});
+      if (scene.has("nodes")) {
+        push(scene.at("nodes"), {});
+      }
+      return;
+    }
+    // Without scenes: every node that is nobody's child.
+    std::vector<bool> is_child(seen_.size(), false);
+    for (std::size_t n = 0; n < seen_.size(); ++n) {
+      const JsonPlace node = root.at("nodes").at(n);
+      for (std::size_t c = 0; node.has("children") && c < node.at("children").size(); ++c) {
+        const JsonPlace child = node.at("children").at(c);
+        (void)source_.element("nodes", child);
+        is_child[static_cast<std::size_t>(child.whole())] = true;
+      }
+    }
+    for (std::size_t n = seen_.size(); n-- > 0;) {
+      if (!is_child[n]) {
+        indices_.emplace_back(n);
+        stack_.push_back({{source_.path(), indices_.back(), "nodes"}, {}});
+      }
+    }
+  }
+
+  void push(const JsonPlace& nodes, const Affine& above) {
+    for (std::size_t n = nodes.size(); n-- > 0;) {
+      stack_.push_back({nodes.at(n), above});
+    }
+  }
+
+  void visit(const Pending& pending) {
+    const JsonPlace node = source_.element("nodes", pending.index);
+    const auto number = static_cast<std::size_t>(pending.index.whole());
+    if (seen_[number]) {
+      pending.index.fail("is node " + std::to_string(number) +
+                         " again; nodes have one parent and no cycles");
+    }
+    seen_[number] = true;
+    const Affine transform = pending.above.after(transform_of(node));
+    if (node.has("mesh")) {
+      add_mesh(node, transform);
+    }
+    if (node.has("children")) {
+      push(node.at("children"), transform);
+    }
+  }
+
+  void add_mesh(const JsonPlace& node, const Affine& transform) {
+    GltfSurface surface =
+        read_gltf_mesh(source_, source_.element("meshes", node.at("mesh")), budget_);
+    budget_.take(node, surface.bytes());
+    if (!is_identity(transform)) {
+      move(surface.content, transform, node);
+    }
+    append(whole_, std::move(surface), source_.path());
+  }
+
+  GltfSource& source_;
+  Budget budget_;
+  std::vector<bool> seen_;
+  std::vector<Pending> stack_;
+  std::deque<nlohmann::json> indices_;  ///< of roots that no scene names
+  GltfSurface whole_;
+};
+
+ScalarMesh read_scene(GltfSource& source) {
+  return SceneReader(source).read();
+}
+
+}  // namespace
+
+ScalarMesh decode_gltf(const std::filesystem::path& path, Array<char> bytes) {
+  GltfSource source(path, std::move(bytes), false);
+  return read_scene(source);
+}
+
+}  // namespace detail
+
+ScalarMesh read_gltf(const std::filesystem::path& path) {
+  Array<char> bytes;
+  {
+    const detail::InputFile file(path);
+    bytes = file.read_text(0, file.size());
+  }
+  detail::GltfSource source(path, std::move(bytes), true);
+  return detail::read_scene(source);
+}
+
+}  // namespace difmesh

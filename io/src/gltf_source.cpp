@@ -1,0 +1,357 @@
+#include "gltf_source.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "base64.hpp"
+#include "difmesh/error.hpp"
+#include "gltf_bytes.hpp"
+#include "input_file.hpp"
+#include "text.hpp"
+
+namespace difmesh::detail {
+namespace {
+
+constexpr std::uint64_t kMostWhole = std::uint64_t{1} << 53U;  // what JSON's readers agree on
+constexpr std::size_t kMostFiles = 256;
+
+struct ComponentType {
+  int id;
+  std::size_t bytes;
+};
+constexpr std::array<ComponentType, 6> kComponentTypes{
+    {{5120, 1}, {5121, 1}, {5122, 2}, {5123, 2}, {5125, 4}, {5126, 4}}};
+constexpr std::array<std::string_view, 4> kTypes{"SCALAR", "VEC2", "VEC3", "VEC4"};
+
+std::uint32_t u32_at(std::span<const char> bytes, std::size_t offset) {
+  std::uint32_t value = 0;
+  std::memcpy(&value, bytes.data() + offset, sizeof value);
+  return little_endian(value);
+}
+
+template <class T>
+T number_at(const char* place) {
+  T value{};
+  std::memcpy(&value, place, sizeof value);
+  return little_endian(value);
+}
+
+/// %20 and the like; nothing where a % is not followed by two hexadecimal digits.
+std::optional<std::string> without_escapes(std::string_view uri) {
+  std::string text;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    if (uri[i] != '%') {
+      text += uri[i];
+      continue;
+    }
+    constexpr std::string_view kDigits = "0123456789abcdef";
+    const std::string pair = lower_case(uri.substr(i + 1, 2));
+    const std::size_t high = pair.size() == 2 ? kDigits.find(pair[0]) : std::string::npos;
+    const std::size_t low = pair.size() == 2 ? kDigits.find(pair[1]) : std::string::npos;
+    if (high == std::string::npos || low == std::string::npos) {
+      return std::nullopt;
+    }
+    text += static_cast<char>(16 * high + low);
+    i += 2;
+  }
+  return text;
+}
+
+}  // namespace
+
+void JsonPlace::fail(const std::string& matter) const {
+  fail_format(*file_, (place_.empty() ? "the root" : place_) + " " + matter);
+}
+
+bool JsonPlace::has(const char* key) const {
+  return value_->is_object() && value_->contains(key);
+}
+
+JsonPlace JsonPlace::at(const char* key) const {
+  if (!has(key)) {
+    fail(std::string("has no ") + key);
+  }
+  return {*file_, (*value_)[key], place_.empty() ? key : place_ + "." + key};
+}
+
+JsonPlace JsonPlace::at(std::size_t index) const {
+  return {*file_, (*value_)[index], place_ + "[" + std::to_string(index) + "]"};
+}
+
+std::size_t JsonPlace::size() const {
+  if (!value_->is_array()) {
+    fail("is no array");
+  }
+  return value_->size();
+}
+
+std::uint64_t JsonPlace::whole() const {
+  if (value_->is_number_unsigned() && value_->get<std::uint64_t>() <= kMostWhole) {
+    return value_->get<std::uint64_t>();
+  }
+  // 3.0 is a whole number too.
+  const double number = value_->is_number() ? value_->get<double>() : -1.0;
+  if (!(number >= 0.0) || number > static_cast<double>(kMostWhole) ||
+      number != std::floor(number)) {
+    fail("is no whole number from 0 on");
+  }
+  return static_cast<std::uint64_t>(number);
+}
+
+std::uint64_t JsonPlace::whole_or(const char* key, std::uint64_t otherwise) const {
+  return has(key) ? at(key).whole() : otherwise;
+}
+
+double JsonPlace::finite() const {
+  if (!value_->is_number() || !std::isfinite(value_->get<double>())) {
+    fail("is no number");
+  }
+  return value_->get<double>();
+}
+
+const std::string& JsonPlace::text() const {
+  if (!value_->is_string()) {
+    fail("is no text");
+  }
+  return value_->get_ref<const std::string&>();
+}
+
+bool JsonPlace::truth_or(const char* key, bool otherwise) const {
+  if (!has(key)) {
+    return otherwise;
+  }
+  const JsonPlace place = at(key);
+  if (!place.value().is_boolean()) {
+    place.fail("is neither true nor false");
+  }
+  return place.value().get<bool>();
+}
+
+double AccessorView::scaled(double whole) const {
+  constexpr std::array<double, 4> kMost{127.0, 255.0, 32767.0, 65535.0};
+  const bool is_scaled = normalized && type >= 5120 && type <= 5123;
+  return is_scaled ? std::max(whole / kMost[static_cast<std::size_t>(type - 5120)], -1.0) : whole;
+}
+
+double AccessorView::number(std::size_t element, std::size_t component) const {
+  const char* const row = bytes + element * stride;
+  switch (type) {
+    case 5120:
+      return scaled(number_at<std::int8_t>(row + component));
+    case 5121:
+      return scaled(number_at<std::uint8_t>(row + component));
+    case 5122:
+      return scaled(number_at<std::int16_t>(row + 2 * component));
+    case 5123:
+      return scaled(number_at<std::uint16_t>(row + 2 * component));
+    case 5125:
+      return number_at<std::uint32_t>(row + 4 * component);
+    default:
+      return static_cast<double>(number_at<float>(row + 4 * component));
+  }
+}
+
+std::uint64_t AccessorView::whole(std::size_t element, std::size_t component) const {
+  const char* const row = bytes + element * stride;
+  switch (type) {
+    case 5121:
+      return number_at<std::uint8_t>(row + component);
+    case 5123:
+      return number_at<std::uint16_t>(row + 2 * component);
+    default:
+      return number_at<std::uint32_t>(row + 4 * component);
+  }
+}
+
+GltfSource::GltfSource(std::filesystem::path path, Array<char> bytes, bool with_files)
+    : path_(std::move(path)),
+      bytes_(std::move(bytes)),
+      with_files_(with_files),
+      bytes_read_(bytes_.size()) {
+  if (bytes_.size() >= 4 && u32_at(bytes_, 0) == 0x46546C67) {
+    parse_container();
+  } else {
+    text_ = {bytes_.data(), bytes_.size()};
+  }
+  parse();
+}
+
+/// A .glb: a header, a chunk of JSON, perhaps one of data, perhaps others that nobody has to know.
+void GltfSource::parse_container() {
+  const std::span<const char> bytes(bytes_);
+  if (bytes.size() < 20) {
+    fail_format(path_, "truncated: a .glb file of " + std::to_string(bytes.size()) + " bytes");
+  }
+  if (u32_at(bytes, 4) != 2) {
+    fail_format(path_, "glTF of version " + std::to_string(u32_at(bytes, 4)) + ", not 2");
+  }
+  if (u32_at(bytes, 8) != bytes.size()) {
+    fail_format(path_, "its header says " + std::to_string(u32_at(bytes, 8)) +
+                           " bytes, the file has " + std::to_string(bytes.size()));
+  }
+  for (std::size_t at = 12, chunk = 0; at < bytes.size(); ++chunk) {
+    if (bytes.size() - at < 8 || u32_at(bytes, at) > bytes.size() - at - 8) {
+      fail_format(path_, "chunk " + std::to_string(chunk) + " reaches beyond the file");
+    }
+    const std::span<const char> content = bytes.subspan(at + 8, u32_at(bytes, at));
+    const std::uint32_t type = u32_at(bytes, at + 4);
+    if ((chunk == 0) != (type == 0x4E4F534A)) {
+      fail_format(path_, "chunk " + std::to_string(chunk) + " of the .glb file is" +
+                             (chunk == 0 ? " not JSON" : " JSON again"));
+    }
+    if (chunk == 0) {
+      text_ = {content.data(), content.size()};
+    } else if (type == 0x004E4942 && !binary_) {
+      binary_ = content;
+    }
+    at += 8 + content.size();
+  }
+}
+
+void GltfSource::parse() {
+  try {
+    json_ = nlohmann::json::parse(text_);
+  } catch (const nlohmann::json::exception& error) {
+    fail_format(path_, std::string("no JSON: ") + error.what());
+  }
+  const std::string& version = root().at("asset").at("version").text();
+  if (!version.starts_with("2.")) {
+    fail_format(path_, "glTF of version " + in_quotes(version) + ", not 2");
+  }
+}
+
+std::size_t GltfSource::count(const char* array) const {
+  return root().has(array) ? root().at(array).size() : 0;
+}
+
+JsonPlace GltfSource::element(const char* array, const JsonPlace& index) const {
+  const std::uint64_t i = index.whole();
+  if (i >= count(array)) {
+    index.fail("is " + std::to_string(i) + ", but there are " + std::to_string(count(array)) + " " +
+               array);
+  }
+  return root().at(array).at(static_cast<std::size_t>(i));
+}
+
+AccessorView GltfSource::accessor(const JsonPlace& index) {
+  AccessorView view{.place = element("accessors", index)};
+  const JsonPlace& place = view.place;
+  if (place.has("sparse")) {
+    place.fail("is sparse, which is not supported");
+  }
+  const auto type = std::find(kTypes.begin(), kTypes.end(), place.at("type").text());
+  const std::uint64_t id = place.at("componentType").whole();
+  const auto component =
+      std::find_if(kComponentTypes.begin(), kComponentTypes.end(),
+                   [id](const ComponentType& t) { return static_cast<std::uint64_t>(t.id) == id; });
+  if (type == kTypes.end() || component == kComponentTypes.end()) {
+    place.fail("is no vector of a type that vertices and indices have");
+  }
+  view.components = static_cast<std::size_t>(type - kTypes.begin()) + 1;
+  view.type = component->id;
+  view.normalized = place.truth_or("normalized", false);
+  view.count = static_cast<std::size_t>(place.at("count").whole());
+  if (view.count == 0) {
+    place.at("count").fail("is 0");
+  }
+  if (!place.has("bufferView")) {
+    return view;
+  }
+  const std::span<const char> bytes = this->view(place.at("bufferView"));
+  const JsonPlace view_place = element("bufferViews", place.at("bufferView"));
+  const std::uint64_t row = view.components * component->bytes;
+  const std::uint64_t stride = view_place.whole_or("byteStride", row);
+  const std::uint64_t offset = place.whole_or("byteOffset", 0);
+  if (stride < row || stride > 252) {
+    view_place.fail("has a byteStride of " + std::to_string(stride) + " for elements of " +
+                    std::to_string(row) + " bytes");
+  }
+  // Below 2^53 each, so that the sum cannot overflow.
+  if (offset + (view.count - 1) * stride + row > bytes.size()) {
+    place.fail("wants " + std::to_string(view.count) + " elements, beyond the " +
+               std::to_string(bytes.size()) + " bytes of its bufferView");
+  }
+  view.bytes = bytes.data() + offset;
+  view.stride = static_cast<std::size_t>(stride);
+  return view;
+}
+
+std::span<const char> GltfSource::view(const JsonPlace& index) {
+  const JsonPlace place = element("bufferViews", index);
+  const std::span<const char> bytes = buffer(place.at("buffer"));
+  const std::uint64_t offset = place.whole_or("byteOffset", 0);
+  const std::uint64_t length = place.at("byteLength").whole();
+  if (offset + length > bytes.size()) {
+    place.fail("reaches to byte " + std::to_string(offset + length) + " of a buffer of " +
+               std::to_string(bytes.size()));
+  }
+  return bytes.subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(length));
+}
+
+std::span<const char> GltfSource::buffer(const JsonPlace& index) {
+  const JsonPlace place = element("buffers", index);
+  const std::uint64_t length = place.at("byteLength").whole();
+  std::span<const char> bytes;
+  if (place.has("uri")) {
+    bytes = load(place.at("uri").text(), place.at("uri"));
+  } else if (binary_ && index.whole() == 0) {
+    bytes = *binary_;
+  } else {
+    place.fail("has neither a uri nor a chunk of the .glb file");
+  }
+  if (length > bytes.size()) {
+    place.at("byteLength")
+        .fail("is " + std::to_string(length) + ", but there are " + std::to_string(bytes.size()) +
+              " bytes");
+  }
+  return bytes.first(static_cast<std::size_t>(length));
+}
+
+std::span<const char> GltfSource::load(const std::string& uri, const JsonPlace& place) {
+  const auto known = loaded_.find(uri);
+  if (known != loaded_.end()) {
+    return known->second;
+  }
+  if (!lower_case(uri.substr(0, 5)).starts_with("data:")) {
+    return load_file(uri, place);
+  }
+  const std::size_t comma = uri.find(',');
+  if (comma == std::string::npos || !lower_case(uri.substr(0, comma)).ends_with(";base64")) {
+    place.fail("holds data that are not base64");
+  }
+  std::optional<std::vector<char>> bytes = from_base64(std::string_view(uri).substr(comma + 1));
+  if (!bytes) {
+    place.fail("holds data that are no base64");
+  }
+  return loaded_.emplace(uri, std::move(*bytes)).first->second;
+}
+
+/// Files in the folder of the glTF file or below: a file from a stranger must not read others.
+std::span<const char> GltfSource::load_file(const std::string& uri, const JsonPlace& place) {
+  const std::optional<std::string> name = without_escapes(uri);
+  if (!name || name->empty() || name->find(':') != std::string::npos ||
+      name->find('\0') != std::string::npos) {
+    place.fail("is " + in_quotes(uri.substr(0, 80)) + ", no file in the folder");
+  }
+  const std::filesystem::path relative = std::filesystem::path(*name).lexically_normal();
+  if (!with_files_ || relative.is_absolute() || *relative.begin() == "..") {
+    place.fail("is " + in_quotes(uri.substr(0, 80)) + ", outside the folder of the file");
+  }
+  const std::string key = "file " + relative.string();
+  const auto known = loaded_.find(key);
+  if (known != loaded_.end()) {
+    return known->second;
+  }
+  if (loaded_.size() >= kMostFiles) {
+    place.fail("is one file too many");
+  }
+  const InputFile file(path_.parent_path() / relative);
+  const Array<char> bytes = file.read_text(0, file.size());
+  bytes_read_ += bytes.size();
+  return loaded_.emplace(key, std::vector<char>(bytes.begin(), bytes.end())).first->second;
+}
+
+}  // namespace difmesh::detail

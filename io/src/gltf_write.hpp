@@ -1,0 +1,20 @@
+#pragma once
+/// \file gltf_write.hpp
+
+#include <cstdint>
+#include <filesystem>
+
+#include "difmesh/io/gltf_file.hpp"
+
+namespace difmesh::detail {
+
+/// write_gltf() whatever the extension.
+GltfReport write_gltf_as(const std::filesystem::path& path, const Mesh& mesh,
+                         const WriteGltfOptions& options, bool binary);
+
+/// The size of a .glb file whose JSON and data have so many bytes, padding and headers included.
+/// \throw Error too_large beyond what its 32-bit lengths can say
+[[nodiscard]] std::uint64_t glb_size(const std::filesystem::path& path, std::uint64_t json_bytes,
+                                     std::uint64_t data_bytes);
+
+}  // namespace difmesh::detail

@@ -1,0 +1,198 @@
+#include "difmesh/io/draco_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <string>
+
+#include "difmesh/io/gltf_file.hpp"
+#include "difmesh/io/mesh_file.hpp"
+#include "difmesh/measure.hpp"
+#include "io/surfaces.hpp"
+
+namespace {
+
+using difmesh::DracoMethod;
+using difmesh::ErrorCode;
+using difmesh::Mesh;
+using difmesh::ScalarMesh;
+using difmesh::Vec3;
+using difmesh::VertexScalars;
+using test::TempFolder;
+
+double largest_difference(const Vec3& a, const Vec3& b) {
+  return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
+}
+
+/// Vertices that edge ids match are at most `bound` apart in each coordinate.
+void check_by_ids(const Mesh& back, const Mesh& mesh, double bound) {
+  REQUIRE(back.edge_ids.size() == back.positions.size());
+  CHECK(back.positions.size() == mesh.positions.size());
+  std::map<std::uint64_t, std::size_t> places;
+  for (std::size_t v = 0; v < mesh.edge_ids.size(); ++v) {
+    places[mesh.edge_ids[v]] = v;
+  }
+  for (std::size_t v = 0; v < back.positions.size(); ++v) {
+    const auto place = places.find(back.edge_ids[v]);
+    REQUIRE(place != places.end());
+    REQUIRE(largest_difference(back.positions[v], mesh.positions[place->second]) <= bound);
+  }
+}
+
+VertexScalars squares(const Mesh& mesh) {
+  VertexScalars scalars{"square", {}};
+  for (const Vec3& p : mesh.positions) {
+    scalars.values.push_back(p[0] * p[0] - p[1]);
+  }
+  return scalars;
+}
+
+}  // namespace
+
+TEST_CASE("sequential draco keeps the order") {
+  const TempFolder folder;
+  const Mesh mesh = test::ball(16);
+  const VertexScalars scalars = squares(mesh);
+  const auto [low, high] = std::minmax_element(scalars.values.begin(), scalars.values.end());
+  for (const int bits : {8, 11, 14, 20}) {
+    CAPTURE(bits);
+    const difmesh::DracoOptions draco{.position_bits = bits, .method = DracoMethod::sequential};
+    const auto report =
+        difmesh::write_gltf(folder / "m.glb", mesh, {.scalars = {scalars}, .draco = draco});
+    CHECK(report.position_bits == bits);
+    CHECK(report.position_error < 13.2 / (std::exp2(bits) - 1) / 2.0 + 1e-5);
+    const ScalarMesh back = difmesh::read_gltf(folder / "m.glb");
+    CHECK(back.mesh.triangles == mesh.triangles);
+    CHECK(back.mesh.edge_ids == mesh.edge_ids);
+    REQUIRE(back.mesh.positions.size() == mesh.positions.size());
+    REQUIRE(back.scalars.size() == 1);
+    const double scalar_error = (*high - *low) / 4095.0 / 2.0 * 1.001;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+      REQUIRE(largest_difference(back.mesh.positions[v], mesh.positions[v]) <=
+              report.position_error);
+      REQUIRE(std::abs(back.scalars[0].values[v] - scalars.values[v]) <= scalar_error);
+      const Vec3& n = back.mesh.normals[v];
+      const Vec3& m = mesh.normals[v];
+      const double sine = std::hypot(n[1] * m[2] - n[2] * m[1], n[2] * m[0] - n[0] * m[2],
+                                     n[0] * m[1] - n[1] * m[0]);
+      REQUIRE(std::asin(sine) * 180.0 / std::numbers::pi < 0.2);
+    }
+  }
+}
+
+TEST_CASE("edgebreaker draco keeps the shape at every speed") {
+  const TempFolder folder;
+  const Mesh mesh = test::ball(24);
+  const difmesh::Measure wanted = difmesh::measure(mesh);
+  for (const int speed : {0, 3, 5, 10}) {
+    CAPTURE(speed);
+    const auto report =
+        difmesh::write_gltf(folder / "m.glb", mesh, {.draco = {{.cell_size = 1, .speed = speed}}});
+    CHECK(report.position_error <= 1e-3);
+    const Mesh back = difmesh::read_mesh(folder / "m.glb");
+    check_by_ids(back, mesh, report.position_error);
+    const difmesh::Measure found = difmesh::measure(back);
+    CHECK(found.closed);
+    CHECK(found.manifold);
+    CHECK(found.euler_number == 2);
+    CHECK(found.triangles == wanted.triangles);
+    // Vertices off by at most e in each coordinate change the volume by at most √3 e times the area.
+    CHECK(std::abs(found.volume - wanted.volume) <=
+          std::numbers::sqrt3 * report.position_error * wanted.area);
+  }
+}
+
+TEST_CASE("the default position bits keep errors within a thousandth of a cell") {
+  const TempFolder folder;
+  for (const std::int64_t cells : {8, 16, 48}) {
+    const Mesh mesh = test::ball(cells, {0, 0, 0}, 0.125);
+    const auto report = difmesh::write_drc(folder / "m.drc", mesh, {.draco = {.cell_size = 0.125}});
+    CHECK(report.position_error <= 1.01e-3 * 0.125);
+    // One bit less would not do.
+    const auto less = difmesh::write_drc(folder / "less.drc", mesh,
+                                         {.draco = {.position_bits = report.position_bits - 1}});
+    CHECK(less.position_error > 1e-3 * 0.125);
+    const auto guessed = difmesh::write_drc(folder / "m.drc", mesh);
+    CHECK(std::abs(guessed.position_bits - report.position_bits) <= 1);
+  }
+}
+
+TEST_CASE("drc files come back with ids and scalars and their place") {
+  const TempFolder folder;
+  const Mesh near = test::ball(16);
+  const Mesh far = test::ball(16, {1e6, -1e6, 1e6}, 1e-3);
+  for (const Mesh* mesh : {&near, &far}) {
+    const double spacing = mesh == &near ? 1.0 : 1e-3;
+    const VertexScalars scalars = squares(*mesh);
+    const auto report = difmesh::write_drc(folder / "m.drc", *mesh,
+                                           {.scalars = {scalars}, .draco = {.cell_size = spacing}});
+    const std::string bytes = test::read_bytes(folder / "m.drc");
+    CHECK(report.bytes == static_cast<std::int64_t>(bytes.size()));
+    CHECK((bytes.find("difmesh_origin") != std::string::npos) == (mesh == &far));
+    const ScalarMesh back = difmesh::read_drc(folder / "m.drc");
+    CHECK(report.position_error <= 1.01e-3 * spacing);
+    // The rounding of float64 at 1e6 comes on top.
+    check_by_ids(back.mesh, *mesh, report.position_error + (mesh == &far ? 3e-10 : 0.0));
+    REQUIRE(back.scalars.size() == 1);
+    CHECK(back.scalars[0].name == "square");
+  }
+}
+
+TEST_CASE("draco packs soups that are no manifold") {
+  const TempFolder folder;
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {5, 5, 5}};
+  mesh.triangles = {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}, {2, 2, 3}};
+  for (const DracoMethod method : {DracoMethod::edgebreaker, DracoMethod::sequential}) {
+    const auto report =
+        difmesh::write_gltf(folder / "m.glb", mesh, {.draco = {{.method = method}}});
+    const Mesh back = difmesh::read_mesh(folder / "m.glb");
+    CHECK(report.vertices == static_cast<std::int64_t>(back.positions.size()));
+    CHECK(report.triangles == static_cast<std::int64_t>(back.triangles.size()));
+    CHECK(difmesh::measure(back).area == doctest::Approx(1.5).epsilon(1e-3));
+    CHECK(back.triangles.size() == (method == DracoMethod::sequential ? 4 : 3));
+  }
+}
+
+TEST_CASE("draco refuses what it cannot hold and says why") {
+  const TempFolder folder;
+  const auto refused = [&](const Mesh& mesh, const difmesh::WriteDrcOptions& options,
+                           std::initializer_list<std::string> words, ErrorCode code) {
+    test::check_error([&] { difmesh::write_drc(folder / "m.drc", mesh, options); }, code, words);
+    CHECK(folder.names().empty());
+  };
+  refused({}, {}, {"no triangles"}, ErrorCode::invalid_value);
+  const Mesh mesh = test::sheet(3);
+  refused(mesh, {.draco = {.normal_bits = 1}}, {"normal_bits is 1"}, ErrorCode::invalid_argument);
+  refused(mesh, {.draco = {.cell_size = -1}}, {"cell_size"}, ErrorCode::invalid_argument);
+  refused(mesh, {.scalars = {{"k", {}}}}, {"0 values"}, ErrorCode::invalid_argument);
+}
+
+TEST_CASE("drc: no beginning of a good file is good and no changed byte harms") {
+  const TempFolder folder;
+  const Mesh mesh = test::ball(4);
+  for (const DracoMethod method : {DracoMethod::edgebreaker, DracoMethod::sequential}) {
+    difmesh::write_drc(folder / "m.drc", mesh, {.draco = {.method = method}});
+    const std::string bytes = test::read_bytes(folder / "m.drc");
+    for (std::size_t length = 0; length < bytes.size(); ++length) {
+      const auto path = folder.file("m.drc", bytes.substr(0, length));
+      CHECK_THROWS_AS((void)difmesh::read_mesh(path), difmesh::Error);
+    }
+    for (std::size_t at = 0; at < bytes.size(); ++at) {
+      for (const char change : {'\1', '\x10', '\x7f', '\xff'}) {
+        std::string changed = bytes;
+        changed[at] = static_cast<char>(changed[at] ^ change);
+        const auto path = folder.file("m.drc", changed);
+        try {
+          const Mesh back = difmesh::read_mesh(path);
+          for (const difmesh::Triangle& t : back.triangles) {
+            REQUIRE(std::max({t[0], t[1], t[2]}) < back.positions.size());
+          }
+        } catch (const difmesh::Error& error) {
+          CHECK(std::string(error.what()).find("m.drc") != std::string::npos);
+        }
+      }
+    }
+  }
+}
