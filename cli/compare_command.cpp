@@ -238,7 +238,9 @@ void add_compare_command(CLI::App& program) {
   const auto request = std::make_shared<Request>();
   CLI::App& command = *program.add_subcommand("compare", kDescription);
   command.footer(kFooter);
-  command.add_option("MESH", request->mesh_path, "Mesh to measure (.ply, .obj, .off, .stl)")
+  command
+      .add_option("MESH", request->mesh_path,
+                  "Mesh to measure (.ply, .obj, .off, .stl, .glb, .gltf, .drc)")
       ->required();
   command
       .add_option("--shape", request->shape_name,
@@ -246,7 +248,7 @@ void add_compare_command(CLI::App& program) {
       ->option_text("SHAPE");
   command
       .add_option("--reference", request->reference_path,
-                  "What it should be: a mesh (.ply, .obj, .off, .stl)")
+                  "What it should be: a mesh (.ply, .obj, .off, .stl, .glb, .gltf, .drc)")
       ->option_text("MESHFILE");
   command
       .add_option("--json", request->json_path,

@@ -230,8 +230,9 @@ void add_info_command(CLI::App& program) {
   CLI::App& command = *program.add_subcommand("info", kDescription);
   command.footer(kFooter);
   command
-      .add_option("FIELD|MESH", request->input.path,
-                  "Field (.npy, .nrrd, .nhdr, raw) or mesh (.ply, .obj, .off, .stl)")
+      .add_option(
+          "FIELD|MESH", request->input.path,
+          "Field (.npy, .nrrd, .nhdr, raw) or mesh (.ply, .obj, .off, .stl, .glb, .gltf, .drc)")
       ->required();
   add_field_options(command, request->input);
   command

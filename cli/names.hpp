@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "difmesh/field_view.hpp"
+#include "difmesh/io/gltf_file.hpp"
 #include "difmesh/options.hpp"
 
 namespace difmesh::cli {
@@ -45,6 +46,14 @@ inline constexpr std::array<Named<ScalarType>, 4> kScalarTypes{{{"float32", Scal
                                                                 {"uint8", ScalarType::uint8},
                                                                 {"uint16", ScalarType::uint16}}};
 
+inline constexpr std::array<Named<ColourMap>, 2> kColourMaps{
+    {{"viridis", ColourMap::viridis}, {"cool_warm", ColourMap::cool_warm}}};
+
+inline constexpr std::array<Named<UpAxis>, 2> kUpAxes{{{"y", UpAxis::y}, {"z", UpAxis::z}}};
+
+inline constexpr std::array<Named<DracoMethod>, 2> kDracoMethods{
+    {{"edgebreaker", DracoMethod::edgebreaker}, {"sequential", DracoMethod::sequential}}};
+
 /// The name of a value. \pre the table has it
 template <class Value, std::size_t n>
 [[nodiscard]] constexpr std::string_view name_of(const std::array<Named<Value>, n>& table,
@@ -61,7 +70,10 @@ inline constexpr Range kPurityToleranceRange{0.0, 0.1};
 inline constexpr Range kOvershootBoundRange{0.0, 1.0};
 
 /// Extensions that the mesh and field files of difmesh::io have, in lower case.
-inline constexpr std::array<std::string_view, 4> kMeshExtensions{".ply", ".obj", ".off", ".stl"};
+inline constexpr std::array<std::string_view, 7> kMeshExtensions{".ply", ".obj",  ".off", ".stl",
+                                                                 ".glb", ".gltf", ".drc"};
+inline constexpr std::array<std::string_view, 2> kGltfExtensions{".glb", ".gltf"};
+inline constexpr std::array<std::string_view, 1> kDracoExtensions{".drc"};
 inline constexpr std::array<std::string_view, 3> kFieldExtensions{".npy", ".nrrd", ".nhdr"};
 
 /// Whether a path has one of these extensions, in any case of letters.

@@ -8,7 +8,6 @@
 
 #include "command.hpp"
 #include "difmesh/error.hpp"
-#include "difmesh/io/mesh_file.hpp"
 #include "difmesh/reconstruct.hpp"
 #include "field_input.hpp"
 #include "json.hpp"
@@ -17,6 +16,7 @@
 #include "output_file.hpp"
 #include "parse.hpp"
 #include "stopwatch.hpp"
+#include "surface_output.hpp"
 #include "text.hpp"
 
 namespace difmesh::cli {
@@ -25,14 +25,17 @@ namespace {
 constexpr const char* kDescription =
     "Reconstructs the surface of a field of volume fractions.\n"
     "\n"
-    "Reads FIELD (.npy, .nrrd, .nhdr or raw) and writes MESH; its extension (.ply, .obj, .off or\n"
-    ".stl) tells the format. The mesh is manifold for every field. The defaults are meant to be "
-    "used.\n";
+    "Reads FIELD (.npy, .nrrd, .nhdr or raw) and writes MESH; its extension (.ply, .obj, .off, "
+    ".stl,\n"
+    ".glb, .gltf or .drc) tells the format. The mesh is manifold for every field. The defaults "
+    "are\n"
+    "meant to be used.\n";
 
 constexpr const char* kFooter =
     "Examples:\n"
     "  difmesh reconstruct drops.nrrd -o drops.ply\n"
     "  difmesh reconstruct drops.npy -o drops.stl --spacing 0.01 --boundary mirror\n"
+    "  difmesh reconstruct drops.nrrd -o drops.glb --draco --color-by angle\n"
     "  difmesh reconstruct tank.npy -o tank.ply --spacing 0.01,0.01,0.02 \\\n"
     "      --boundary periodic,periodic,open,open,empty,open --report tank.json\n"
     "  difmesh reconstruct scan.raw -o scan.ply --raw-dims 256,256,128 --raw-type uint8\n"
@@ -43,7 +46,7 @@ constexpr const char* kFooter =
 
 struct Request {
   FieldInput input;
-  std::string mesh_path;
+  SurfaceOutput output;
   std::string report_path;
   Options options;
   bool quiet = false;
@@ -78,6 +81,7 @@ Json options_json(const Options& options) {
           {"purity_tolerance", options.purity_tolerance},
           {"overshoot_bound", options.overshoot_bound},
           {"vertex_normals", options.vertex_normals},
+          {"edge_ids", options.edge_ids},
           {"threads", options.threads}};
 }
 
@@ -99,7 +103,7 @@ Json report_json(const Request& request, const LoadedField& field, const Reconst
                    {"largest_overshoot", report.largest_overshoot},
                    {"fraction_volume", report.fraction_volume}};
   json["options"] = options_json(request.options);
-  json["mesh"] = {{"path", request.mesh_path},
+  json["mesh"] = {{"path", request.output.path},
                   {"vertices", result.mesh.positions.size()},
                   {"triangles", result.mesh.triangles.size()},
                   {"closed", report.closed},
@@ -138,7 +142,7 @@ void print_summary(const Request& request, const LoadedField& field, const Recon
   const Report& report = result.report;
   const std::optional<double> difference = volume_difference(request, report);
   std::ostream& out = std::cout;
-  print_fact(out, "mesh", request.mesh_path);
+  print_fact(out, "mesh", request.output.path);
   print_fact(
       out, "cells",
       dims_text(field.grid.dims) + ", interfacial: " + std::to_string(report.interfacial_cells));
@@ -166,6 +170,7 @@ void print_summary(const Request& request, const LoadedField& field, const Recon
 Reconstruction reconstruct_file(const Request& request, const LoadedField& field,
                                 LongCall& long_call) {
   Options options = request.options;
+  options.vertex_normals = options.vertex_normals || request.output.is_gltf();
   options.progress = long_call.progress();
   try {
     return reconstruct(field.file.view(), field.grid, options);
@@ -175,15 +180,11 @@ Reconstruction reconstruct_file(const Request& request, const LoadedField& field
 }
 
 void check_outputs(const Request& request) {
-  if (!has_extension(request.mesh_path, kMeshExtensions)) {
-    throw CLI::ValidationError("--output", "'" + request.mesh_path +
-                                               "' has an unknown extension; meshes are " +
-                                               joined(kMeshExtensions));
-  }
-  check_output("--output", request.mesh_path, request.input.path);
+  check_surface_output(request.output);
+  check_output("--output", request.output.path, request.input.path);
   if (!request.report_path.empty()) {
     check_output("--report", request.report_path, request.input.path);
-    check_output("--report", request.report_path, request.mesh_path);
+    check_output("--report", request.report_path, request.output.path);
   }
 }
 
@@ -203,7 +204,8 @@ void run(const Request& request) {
   if (!request.report_path.empty()) {
     report.emplace(request.report_path, to_text(report_json(request, field, result, seconds)));
   }
-  write_mesh(request.mesh_path, result.mesh);
+  const double cell = *std::min_element(field.grid.spacing.begin(), field.grid.spacing.end());
+  const std::string written = write_surface(request.output, result.mesh, cell);
   if (report) {
     report->commit();
   }
@@ -214,6 +216,9 @@ void run(const Request& request) {
   }
   if (request.with_summary()) {
     print_summary(request, field, result, seconds);
+    if (!written.empty()) {
+      print_fact(std::cout, "file", written);
+    }
   }
 }
 
@@ -288,13 +293,19 @@ void add_reconstruct_command(CLI::App& program) {
   command.footer(kFooter);
   command.add_option("FIELD", request->input.path, "Field of fractions (.npy, .nrrd, .nhdr, raw)")
       ->required();
-  command.add_option("-o,--output", request->mesh_path, "Mesh to write (.ply, .obj, .off, .stl)")
+  command
+      .add_option("-o,--output", request->output.path,
+                  "Mesh to write (.ply, .obj, .off, .stl, .glb, .gltf, .drc)")
       ->required()
       ->option_text("MESH");
   add_method_options(command, *request);
   add_limit_options(command, *request);
-  command.add_flag("--vertex-normals", request->options.vertex_normals,
-                   "Write a normal with each vertex (not in .stl)");
+  command.add_flag(
+      "--vertex-normals", request->options.vertex_normals,
+      "Write a normal with each vertex (not in .stl; .glb and .gltf always have them)");
+  command.add_flag("--edge-ids", request->options.edge_ids,
+                   "Write the id of its dual edge with each vertex (.ply, .glb, .gltf, .drc)");
+  add_surface_options(command, request->output);
   command
       .add_option("--report", request->report_path,
                   "Write facts about field, mesh and work as JSON to FILE;\n"

@@ -63,12 +63,10 @@ std::vector<Side> sorted_sides(const Mesh& mesh) {
   return sides;
 }
 
-}  // namespace
-
-std::optional<double> roughness_degrees(const Mesh& mesh) {
+/// Calls visit(edge, angle) for every edge with two triangles that have a normal; radians.
+template <class Visit>
+void for_edge_angles(const Mesh& mesh, const Visit& visit) {
   const std::vector<Side> sides = sorted_sides(mesh);
-  double sum = 0.0;
-  std::int64_t edges = 0;
   for (std::size_t i = 0; i < sides.size();) {
     std::size_t end = i + 1;
     while (end < sides.size() && sides[end].edge == sides[i].edge) {
@@ -79,17 +77,36 @@ std::optional<double> roughness_degrees(const Mesh& mesh) {
       const Vec3 b = normal_of(mesh, mesh.triangles[sides[i + 1].triangle]);
       if (dot(a, a) > 0.0 && dot(b, b) > 0.0) {
         // Not acos(): it has no digits left where the angle is small.
-        const double angle = std::atan2(length(cross(a, b)), dot(a, b));
-        sum += angle * angle;
-        ++edges;
+        visit(sides[i].edge, std::atan2(length(cross(a, b)), dot(a, b)));
       }
     }
     i = end;
   }
+}
+
+}  // namespace
+
+std::optional<double> roughness_degrees(const Mesh& mesh) {
+  double sum = 0.0;
+  std::int64_t edges = 0;
+  for_edge_angles(mesh, [&](const Edge&, double angle) {
+    sum += angle * angle;
+    ++edges;
+  });
   if (edges == 0) {
     return std::nullopt;
   }
   return std::sqrt(sum / static_cast<double>(edges)) * 180.0 / std::numbers::pi;
+}
+
+Array<double> largest_angles(const Mesh& mesh) {
+  Array<double> angles(mesh.positions.size(), 0.0);
+  for_edge_angles(mesh, [&](const Edge& edge, double angle) {
+    for (const std::uint32_t v : {edge.first, edge.second}) {
+      angles[v] = std::max(angles[v], angle * 180.0 / std::numbers::pi);
+    }
+  });
+  return angles;
 }
 
 }  // namespace difmesh::cli

@@ -14,4 +14,8 @@ namespace difmesh::cli {
 /// counts. Cost: O(n log n). \pre indices in range
 [[nodiscard]] std::optional<double> roughness_degrees(const Mesh& mesh);
 
+/// For each vertex the largest such angle along its edges, in degrees; 0 without any. Cost and \pre
+/// as above.
+[[nodiscard]] Array<double> largest_angles(const Mesh& mesh);
+
 }  // namespace difmesh::cli

@@ -35,7 +35,7 @@ constexpr const char* kDescription =
     "\n"
     "The body is sphere, ellipsoid, torus, genus, smooth_box or golf_ball, by quadrature to 1e-10 "
     "per\n"
-    "cell; or a mesh file (.ply, .obj, .off or .stl), exactly. Its grid is its\n"
+    "cell; or a mesh file, exactly. Its grid is its\n"
     "bounding box and three cells more on every side. FIELD is .nrrd, which holds origin and "
     "spacing,\n"
     "or .npy, which does not: they are printed.\n";
@@ -265,7 +265,7 @@ void add_sample_command(CLI::App& program) {
   command.footer(kFooter);
   command
       .add_option("SHAPE|MESHFILE", request->body,
-                  "Name of a shape, or closed mesh (.ply, .obj, .off, .stl)")
+                  "Name of a shape, or closed mesh (.ply, .obj, .off, .stl, .glb, .gltf, .drc)")
       ->required();
   command.add_option("-o,--output", request->field_path, "Field to write (.nrrd, .npy)")
       ->required()

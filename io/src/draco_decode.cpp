@@ -144,6 +144,10 @@ DecodedAttribute decoded(const std::filesystem::path& path, const draco::Mesh& m
   to.components = static_cast<std::size_t>(from.num_components());
   to.is_integer = draco::IsDataTypeIntegral(from.data_type());
   to.name = name_of(mesh, index);
+  // A bool that is neither 0 nor 1 must not even be loaded.
+  if (from.data_type() == draco::DT_BOOL || from.data_type() == draco::DT_INVALID) {
+    fail_format(path, "an attribute of Draco is of a type that vertices do not have");
+  }
   if (to.components < 1 || to.components > 4) {
     fail_format(path, "an attribute of Draco has " + std::to_string(to.components) + " components");
   }

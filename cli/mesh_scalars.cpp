@@ -1,0 +1,51 @@
+#include "mesh_scalars.hpp"
+
+#include <CLI/CLI.hpp>
+#include <array>
+
+#include "roughness.hpp"
+
+namespace difmesh::cli {
+namespace {
+
+template <std::size_t axis>
+Array<double> coordinate(const Mesh& mesh) {
+  Array<double> values;
+  values.reserve(mesh.positions.size());
+  for (const Vec3& position : mesh.positions) {
+    values.push_back(position[axis]);
+  }
+  return values;
+}
+
+constexpr std::array<ScalarKind, 4> kKinds{
+    {{"x", "coordinate", coordinate<0>},
+     {"y", "coordinate", coordinate<1>},
+     {"z", "coordinate", coordinate<2>},
+     {"angle", "largest angle between neighbouring facets, degrees", largest_angles}}};
+
+}  // namespace
+
+std::span<const ScalarKind> scalar_kinds() {
+  return kKinds;
+}
+
+VertexScalars scalars_of(const std::string& option, const std::string& name,
+                         const ScalarMesh& surface) {
+  std::string known;
+  for (const VertexScalars& scalars : surface.scalars) {
+    if (scalars.name == name) {
+      return scalars;
+    }
+    known += scalars.name + ", ";
+  }
+  for (const ScalarKind& kind : kKinds) {
+    if (kind.name == name) {
+      return {name, kind.of(surface.mesh)};
+    }
+    known += (&kind == &kKinds.front() ? "" : ", ") + std::string(kind.name);
+  }
+  throw CLI::ValidationError(option, "'" + name + "' is none of " + known);
+}
+
+}  // namespace difmesh::cli

@@ -1,0 +1,197 @@
+#include "surface_output.hpp"
+
+#include <utility>
+#include <vector>
+
+#include "difmesh/io/draco_file.hpp"
+#include "difmesh/io/mesh_file.hpp"
+#include "mesh_scalars.hpp"
+#include "names.hpp"
+#include "parse.hpp"
+#include "text.hpp"
+
+namespace difmesh::cli {
+namespace {
+
+bool is_drc(const SurfaceOutput& output) {
+  return has_extension(output.path, kDracoExtensions);
+}
+
+DracoOptions draco_options(const SurfaceOutput& output, double cell_size) {
+  DracoOptions draco;
+  draco.cell_size = cell_size;
+  if (!output.draco.empty() && output.draco != "true") {
+    draco.position_bits = static_cast<int>(parse_integer("--draco", output.draco, 1, 24));
+  }
+  draco.method = output.draco_method.value_or(draco.method);
+  draco.speed = output.draco_speed.value_or(draco.speed);
+  return draco;
+}
+
+std::string written(std::int64_t bytes, int bits, double error) {
+  std::string text = count_of(bytes, "byte");
+  if (bits > 0) {
+    text += ", positions of " + std::to_string(bits) + " bits";
+  }
+  return text + ", coordinates off by " + rounded(error, 3) + " at most";
+}
+
+std::string write_as_gltf(const SurfaceOutput& output, const Mesh& mesh, double cell_size) {
+  WriteGltfOptions options;
+  if (!output.draco.empty()) {
+    options.draco = draco_options(output, cell_size);
+  }
+  if (!output.color_by.empty()) {
+    options.scalars.push_back(scalars_of("--color-by", output.color_by, {mesh, {}}));
+    options.colour = ColourBy{output.color_by, output.color_map.value_or(ColourMap::viridis),
+                              output.color_range};
+  }
+  options.up = output.up.value_or(options.up);
+  options.metres_per_unit = output.metres_per_unit.value_or(options.metres_per_unit);
+  const GltfReport report = write_gltf(output.path, mesh, options);
+  return written(report.bytes, report.position_bits, report.position_error);
+}
+
+void add_draco_options(CLI::App& command, SurfaceOutput& output) {
+  command
+      .add_flag("--draco", output.draco,
+                "Compress .glb and .gltf with Draco. --draco=BITS, also for .drc,\n"
+                "sets the bits per coordinate, 1 to 24; as many as keep errors within\n"
+                "a thousandth of the spacing if not given")
+      ->option_text("[=BITS]");
+  command
+      .add_option_function<std::string>(
+          "--draco-method",
+          [&output](const std::string& text) {
+            output.draco_method = parse_name("--draco-method", text, kDracoMethods);
+          },
+          "edgebreaker (default) is smallest, sequential keeps the order of\n"
+          "vertices and triangles")
+      ->option_text("NAME");
+  command
+      .add_option_function<std::string>(
+          "--draco-speed",
+          [&output](const std::string& text) {
+            output.draco_speed = static_cast<int>(parse_integer("--draco-speed", text, 0, 10));
+          },
+          "0 small to 10 fast. Default: 5")
+      ->option_text("N");
+}
+
+std::string kinds_text() {
+  std::string text;
+  for (const ScalarKind& kind : scalar_kinds()) {
+    text += "\n  " + std::string(kind.name);
+    text.resize(text.size() + (kind.name.size() < 7 ? 7 - kind.name.size() : 1), ' ');
+    text += kind.meaning;
+  }
+  return text;
+}
+
+std::array<double, 2> parse_range(const std::string& option, const std::string& text) {
+  const std::vector<std::string_view> words = split_at_commas(text);
+  if (words.size() != 2) {
+    throw CLI::ValidationError(option, "'" + text + "' is not two numbers with a comma between");
+  }
+  const std::array<double, 2> range{parse_number(option, words[0]), parse_number(option, words[1])};
+  if (range[0] > range[1]) {
+    throw CLI::ValidationError(option, "'" + text + "' has its larger number first");
+  }
+  return range;
+}
+
+void add_colour_options(CLI::App& command, SurfaceOutput& output) {
+  command
+      .add_option(
+          "--color-by", output.color_by,
+          "Colour .glb and .gltf by a number per vertex, which is written too:" + kinds_text())
+      ->option_text("NAME");
+  command
+      .add_option_function<std::string>(
+          "--color-map",
+          [&output](const std::string& text) {
+            output.color_map = parse_name("--color-map", text, kColourMaps);
+          },
+          "viridis (default), or cool_warm, which diverges from 0")
+      ->option_text("NAME");
+  command
+      .add_option_function<std::string>(
+          "--color-range",
+          [&output](const std::string& text) {
+            output.color_range = parse_range("--color-range", text);
+          },
+          "Numbers of the first and the last colour. Default: all there are")
+      ->option_text("LOW,HIGH");
+}
+
+}  // namespace
+
+bool SurfaceOutput::is_gltf() const {
+  return has_extension(path, kGltfExtensions);
+}
+
+void add_surface_options(CLI::App& command, SurfaceOutput& output) {
+  add_draco_options(command, output);
+  add_colour_options(command, output);
+  command
+      .add_option_function<std::string>(
+          "--up",
+          [&output](const std::string& text) { output.up = parse_name("--up", text, kUpAxes); },
+          "The axis that points up, for .glb and .gltf, where that is y: y\n"
+          "(default) leaves coordinates as they are, z has viewers turn them")
+      ->option_text("AXIS");
+  command
+      .add_option_function<std::string>(
+          "--metres-per-unit",
+          [&output](const std::string& text) {
+            output.metres_per_unit = parse_number("--metres-per-unit", text, {1e-30, 1e30});
+          },
+          "The unit of the field's lengths, for .glb and .gltf. Default: 1")
+      ->option_text("M");
+}
+
+void check_surface_output(const SurfaceOutput& output) {
+  if (!has_extension(output.path, kMeshExtensions)) {
+    throw CLI::ValidationError(
+        "--output",
+        "'" + output.path + "' has an unknown extension; meshes are " + joined(kMeshExtensions));
+  }
+  const auto check = [&](bool is_given, bool fits, const char* option, const char* formats) {
+    if (is_given && !fits) {
+      throw CLI::ValidationError(option, "'" + output.path + "' is neither " + formats);
+    }
+  };
+  const bool gltf = output.is_gltf();
+  const bool draco = (gltf && !output.draco.empty()) || is_drc(output);
+  check(!output.draco.empty(), gltf || is_drc(output), "--draco", ".glb, .gltf nor .drc");
+  check(output.draco_method.has_value(), draco, "--draco-method", ".drc nor is --draco given");
+  check(output.draco_speed.has_value(), draco, "--draco-speed", ".drc nor is --draco given");
+  check(!output.color_by.empty(), gltf, "--color-by", ".glb nor .gltf");
+  check(output.up.has_value(), gltf, "--up", ".glb nor .gltf");
+  check(output.metres_per_unit.has_value(), gltf, "--metres-per-unit", ".glb nor .gltf");
+  if (output.color_by.empty() && (output.color_map || output.color_range)) {
+    throw CLI::ValidationError(output.color_map ? "--color-map" : "--color-range",
+                               "needs --color-by");
+  }
+  // Wrong words are told before the work begins.
+  (void)draco_options(output, 1.0);
+  if (!output.color_by.empty()) {
+    (void)scalars_of("--color-by", output.color_by, {});
+  }
+}
+
+std::string write_surface(const SurfaceOutput& output, const Mesh& mesh, double cell_size) {
+  if (output.is_gltf()) {
+    return write_as_gltf(output, mesh, cell_size);
+  }
+  if (is_drc(output)) {
+    WriteDrcOptions options;
+    options.draco = draco_options(output, cell_size);
+    const DracoReport report = write_drc(output.path, mesh, options);
+    return written(report.bytes, report.position_bits, report.position_error);
+  }
+  write_mesh(output.path, mesh);
+  return "";
+}
+
+}  // namespace difmesh::cli

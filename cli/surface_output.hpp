@@ -1,0 +1,39 @@
+#pragma once
+/// \file surface_output.hpp
+/// The options with which a command writes a mesh, and the writing.
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <optional>
+#include <string>
+
+#include "difmesh/io/gltf_file.hpp"
+#include "difmesh/mesh.hpp"
+
+namespace difmesh::cli {
+
+/// A file of a mesh as the command line asks for it.
+struct SurfaceOutput {
+  std::string path;
+  std::string draco;  ///< empty: not asked for; "true": the default bits; else bits
+  std::optional<DracoMethod> draco_method;
+  std::optional<int> draco_speed;
+  std::string color_by;
+  std::optional<ColourMap> color_map;
+  std::optional<std::array<double, 2>> color_range;
+  std::optional<UpAxis> up;
+  std::optional<double> metres_per_unit;
+
+  [[nodiscard]] bool is_gltf() const;
+};
+
+/// Adds --draco and the others. `output` must outlive the parsing.
+void add_surface_options(CLI::App& command, SurfaceOutput& output);
+/// \throw CLI::ValidationError for an unknown extension, and options that the format does not have
+void check_surface_output(const SurfaceOutput& output);
+/// Writes the mesh; \return size and error in words, for formats that have more to say.
+/// \param cell_size Δx, for the choice of Draco's bits
+/// \throw Error
+std::string write_surface(const SurfaceOutput& output, const Mesh& mesh, double cell_size);
+
+}  // namespace difmesh::cli
