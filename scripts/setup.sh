@@ -31,6 +31,10 @@ fi
 if [ "${1:-}" = "--tsan" ]; then
   packages+=(dpkg-dev)
 fi
+# The page of `difmesh view` and the judges of glTF. Any node from 18 on will do.
+if ! command -v node >/dev/null || ! command -v npm >/dev/null; then
+  packages+=(nodejs npm)
+fi
 
 missing=()
 for package in "${packages[@]}"; do

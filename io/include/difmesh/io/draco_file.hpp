@@ -26,7 +26,7 @@ struct DracoOptions {
   int position_bits = 0;
   /// The Δx of the rule above, in the unit of the mesh; 0: the mean length of the triangles' edges.
   double cell_size = 0.0;
-  int normal_bits = 10;   ///< 2 to 24, per coordinate of an octahedron; 10 are off by up to 0.2°
+  int normal_bits = 10;   ///< 2 to 24, per coordinate of an octahedron; 10 are off by up to 0.25°
   int generic_bits = 12;  ///< 1 to 24: scalars, in steps of their range divided by 2^bits - 1
   int speed = 5;          ///< 0 small to 10 fast, for encoding and decoding
   DracoMethod method = DracoMethod::edgebreaker;
