@@ -110,7 +110,7 @@ ScalarMesh decode_drc(const std::filesystem::path& path, std::span<const char> b
     } else if (attribute.kind == DracoKind::normal && result.mesh.normals.empty()) {
       result.mesh.normals = vectors_of(path, attribute, "normals");
     } else if (is_edge_ids(attribute)) {
-      result.mesh.edge_ids = joined_digits(attribute.values, 4);
+      result.mesh.edge_ids = joined_digits(path, attribute.values, 4);
     } else if (attribute.kind == DracoKind::generic && attribute.components == 1 &&
                !attribute.name.empty()) {
       result.scalars.push_back({attribute.name, attribute.values});
@@ -131,12 +131,18 @@ ScalarMesh decode_drc(const std::filesystem::path& path, std::span<const char> b
   return result;
 }
 
-Array<std::uint64_t> joined_digits(const Array<double>& digits, std::size_t count) {
+Array<std::uint64_t> joined_digits(const std::filesystem::path& path, const Array<double>& digits,
+                                   std::size_t count) {
   Array<std::uint64_t> numbers(digits.size() / count);
   for (std::size_t n = 0; n < numbers.size(); ++n) {
     std::uint64_t number = 0;
     for (std::size_t digit = count; digit-- > 0;) {
-      number = (number << 16U) | (static_cast<std::uint64_t>(digits[n * count + digit]) & 0xFFFFU);
+      const double value = digits[n * count + digit];
+      if (!(value >= 0.0 && value <= 65535.0)) {
+        fail_format(path,
+                    "a digit of vertex " + std::to_string(n) + "'s number is " + to_text(value));
+      }
+      number = (number << 16U) | static_cast<std::uint64_t>(value);
     }
     numbers[n] = number;
   }

@@ -14,6 +14,8 @@ namespace difmesh::detail {
 [[nodiscard]] ScalarMesh decode_drc(const std::filesystem::path& path, std::span<const char> bytes);
 
 /// Whole numbers from `count` digits each to the base 65536, lowest first.
-[[nodiscard]] Array<std::uint64_t> joined_digits(const Array<double>& digits, std::size_t count);
+/// \throw Error file_format if a digit is none
+[[nodiscard]] Array<std::uint64_t> joined_digits(const std::filesystem::path& path,
+                                                 const Array<double>& digits, std::size_t count);
 
 }  // namespace difmesh::detail

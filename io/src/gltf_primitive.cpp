@@ -93,9 +93,9 @@ class PrimitiveReader {
       if (name == "NORMAL" && view.components == 3) {
         surface_.content.mesh.normals = vectors(name, view);
       } else if (name == "_EDGE_ID" && view.components == 4 && is_word) {
-        surface_.content.mesh.edge_ids = joined_digits(numbers(name, view), 4);
+        surface_.content.mesh.edge_ids = joined_digits(source_.path(), numbers(name, view), 4);
       } else if (name == "_VERTEX" && view.components == 2 && is_word) {
-        surface_.whole_index = joined_digits(numbers(name, view), 2);
+        surface_.whole_index = joined_digits(source_.path(), numbers(name, view), 2);
       } else if (name[0] == '_' && view.components == 1) {
         surface_.content.scalars.push_back({lower_case(name.substr(1)), numbers(name, view)});
       }
