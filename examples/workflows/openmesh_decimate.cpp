@@ -23,7 +23,7 @@ int main(int argc, char** argv) try {
   }
   const difmesh::FieldFile file = difmesh::read_field(argv[1]);
   const auto [surface, facts] = difmesh::reconstruct(file.view(), file.grid());
-  MyMesh mesh = difmesh::to_openmesh<MyMesh>(surface).mesh;
+  auto [mesh, report] = difmesh::to_openmesh<MyMesh>(surface);
 
   using Smoother = OpenMesh::Smoother::JacobiLaplaceSmootherT<MyMesh>;
   Smoother smoother(mesh);  // along the surface only: along normals, it would shrink
@@ -46,8 +46,8 @@ int main(int argc, char** argv) try {
   if (argc > 2) {
     difmesh::write_mesh(argv[2], result);
   }
-  return measure.closed && 9 * result.triangles.size() < surface.triangles.size() &&
-                 std::abs(change) < 0.02
+  return report.refused.empty() && measure.closed &&
+                 9 * result.triangles.size() < surface.triangles.size() && std::abs(change) < 0.02
              ? 0
              : 1;
 } catch (const std::exception& error) {

@@ -71,15 +71,21 @@ void add_shared_meshes(std::vector<Surface>& surfaces) {
   }
 }
 
+Mesh white_surface(Side side) {
+  const OwnedField field = white_noise({14, 12, 13}, 7);
+  return surface_of(field.view(), make_grid(field.dims), side);
+}
+
+Mesh half_surface(Side side) {
+  const OwnedField field = half_noise({11, 13, 12}, 8);
+  return surface_of(field.view(), make_grid(field.dims), side);
+}
+
 void add_noise(std::vector<Surface>& surfaces) {
   for (const Side side : {Side::empty, Side::open, Side::periodic}) {
-    const OwnedField white = white_noise({14, 12, 13}, 7);
-    const OwnedField half = half_noise({11, 13, 12}, 8);
     const std::string kind = std::to_string(static_cast<int>(side));
-    surfaces.push_back({"white noise, sides of kind " + kind,
-                        surface_of(white.view(), make_grid(white.dims), side)});
-    surfaces.push_back({"halves at random, sides of kind " + kind,
-                        surface_of(half.view(), make_grid(half.dims), side)});
+    surfaces.push_back({"white noise, sides of kind " + kind, white_surface(side)});
+    surfaces.push_back({"halves at random, sides of kind " + kind, half_surface(side)});
   }
 }
 
@@ -126,6 +132,14 @@ const std::vector<Surface>& all_surfaces() {
     return made;
   }();
   return surfaces;
+}
+
+Mesh closed_noise() {
+  return white_surface(Side::empty);
+}
+
+Mesh open_noise() {
+  return half_surface(Side::open);
 }
 
 std::vector<BrokenSoup> broken_soups() {

@@ -21,6 +21,10 @@ struct Surface {
 /// all. Made once. Says so where the shared data are absent.
 const std::vector<Surface>& all_surfaces();
 
+/// Two of these, of white noise and of halves at random; quick to make.
+Mesh closed_noise();
+Mesh open_noise();
+
 /// A soup that no halfedge structure holds as it is, and what has to go.
 struct BrokenSoup {
   std::string name;

@@ -5,15 +5,10 @@
 /// points of float or double. Header-only; users link OpenMeshCore, and nothing of difmesh, but
 /// libdifmesh where they hand over a `const dif_mesh*`.
 
-#include <OpenMesh/Core/Mesh/Handles.hh>
-#include <OpenMesh/Core/Utils/Property.hh>
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
-#include <string>
-#include <vector>
+#include <utility>
 
 #include "difmesh/detail/import_plan.hpp"
 #include "difmesh/detail/openmesh_writer.hpp"
@@ -34,8 +29,9 @@ namespace difmesh {
 /// \throw Error invalid_argument (arrays that do not fit); invalid_value for a position that is
 ///   NaN, infinite or beyond float, with its vertex; too_large beyond 2^31 - 1 vertices or
 ///   halfedges in all. The mesh is then as it was.
-/// Cost: linear; a third of the time of add_face() in a loop, 28 bytes per triangle on top of the
-/// mesh's own memory while it lasts. Thread safety: concurrent calls for different meshes are safe.
+/// Cost: linear, some 70 ns per triangle, a fifth of the time of add_face() in a loop; 14 bytes per
+/// triangle on top of the mesh's own memory while it lasts. Soups with faces to refuse take 0.5 to 1 µs
+/// per triangle. Thread safety: concurrent calls for different meshes are safe.
 template <class OMesh>
 ImportReport append_to_openmesh(OMesh& mesh, const MeshView& view,
                                 const ImportOptions& options = {}) {
@@ -51,7 +47,8 @@ ImportReport append_to_openmesh(OMesh& mesh, const MeshView& view,
   return std::move(plan.report);
 }
 
-/// A new mesh: `auto [mesh, report] = difmesh::to_openmesh<MyMesh>(surface);`
+/// A new mesh: `auto [mesh, report] = difmesh::to_openmesh<MyMesh>(surface);` OpenMesh's meshes cannot
+/// be moved: taking `.mesh` from the result copies it.
 /// \throw as append_to_openmesh()
 template <class OMesh>
 [[nodiscard]] Import<OMesh> to_openmesh(const MeshView& view, const ImportOptions& options = {}) {
@@ -67,7 +64,7 @@ template <class OMesh>
 /// - normals: the standard property, where the mesh has it.
 /// - edge_ids: the property "v:edge_id", where it is there and ascends over the vertices, as
 ///   Mesh::edge_ids must.
-/// \throw Error too_large for more than 2^32 - 1 triangles' worth of faces
+/// \throw Error too_large for more than 2^32 - 1 vertices
 /// Cost: linear. Thread safety: only reads the mesh.
 template <class OMesh>
 [[nodiscard]] Mesh mesh_from_openmesh(const OMesh& mesh) {

@@ -114,13 +114,16 @@ class GraphItems {
     for (std::uint32_t v = 0; v < corners.vertices; ++v) {
       vertices_.push_back(add_vertex(graph));
     }
+    // Where every item is an allocation of its own, those of a face had better lie together.
     edges_.reserve(halfedges.edges);
-    for (std::uint32_t e = 0; e < halfedges.edges; ++e) {
-      edges_.push_back(new_edge(graph));
-    }
     faces_.reserve(corners.count / 3);
-    for (std::uint32_t f = 0; f < corners.count / 3; ++f) {
-      faces_.push_back(add_face(graph));
+    for (std::uint32_t c = 0; c < corners.count; ++c) {
+      if (halfedges.of_corner[c] / 2 == edges_.size()) {
+        edges_.push_back(new_edge(graph));
+      }
+      if (c % 3 == 2) {
+        faces_.push_back(add_face(graph));
+      }
     }
   }
   [[nodiscard]] auto vertex(std::uint32_t v) const { return vertices_[v]; }

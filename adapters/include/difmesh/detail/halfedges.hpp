@@ -5,11 +5,10 @@
 /// Internal to the adapters.
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -46,109 +45,85 @@ struct Halfedges {
   std::uint32_t edges = 0;
 };
 
-/// The ends of the halfedges that leave each vertex for one of higher index. About three per vertex:
-/// one cache line holds them.
-class RisingHalfedges {
- public:
-  struct Entry {
-    std::uint32_t end;
-    std::uint32_t corner;
-  };
-
-  explicit RisingHalfedges(const Corners& corners)
-      : ends_(static_cast<std::size_t>(corners.vertices) + 1, 0) {
-    for (std::uint32_t c = 0; c < corners.count; ++c) {
-      ends_[corners.from(c) + 1] += corners.from(c) < corners.to(c) ? 1U : 0U;
-    }
-    for (std::size_t v = 1; v < ends_.size(); ++v) {
-      ends_[v] += ends_[v - 1];
-    }
-    entries_.resize(ends_.back());
-    // Counting up from the starts turns ends_[v] from the start of v into its end.
-    for (std::uint32_t c = 0; c < corners.count; ++c) {
-      if (corners.from(c) < corners.to(c)) {
-        entries_[ends_[corners.from(c)]++] = {corners.to(c), c};
-      }
-    }
-  }
-
-  /// Sorts the entries of vertices that have many. \return whether all halfedges differ
-  [[nodiscard]] bool prepare() {
-    for (std::size_t v = 0; v + 1 < ends_.size(); ++v) {
-      Entry* const first = entries_.data() + start(v);
-      Entry* const last = entries_.data() + ends_[v];
-      if (last - first > kMany) {
-        std::sort(first, last, [](const Entry& a, const Entry& b) { return a.end < b.end; });
-        if (std::adjacent_find(first, last, same_end) != last) {
-          return false;
-        }
-        continue;
-      }
-      for (Entry* entry = first; entry != last; ++entry) {
-        if (std::any_of(first, entry, [&](const Entry& e) { return same_end(e, *entry); })) {
-          return false;
-        }
-      }
-    }
-    return true;
-  }
-
-  /// The corner of the halfedge from `from` to `to`, from < to, or kNone.
-  [[nodiscard]] std::uint32_t find(std::uint32_t from, std::uint32_t to) const {
-    const Entry* entry = entries_.data() + start(from);
-    const Entry* const last = entries_.data() + ends_[from];
-    if (last - entry > kMany) {
-      entry = std::lower_bound(entry, last, to,
-                               [](const Entry& e, std::uint32_t end) { return e.end < end; });
-    } else {
-      while (entry != last && entry->end != to) {
-        ++entry;
-      }
-    }
-    return entry != last && entry->end == to ? entry->corner : kNone;
-  }
-
- private:
-  static constexpr std::ptrdiff_t kMany = 24;
-  static bool same_end(const Entry& a, const Entry& b) { return a.end == b.end; }
-  [[nodiscard]] std::size_t start(std::size_t v) const { return v == 0 ? 0 : ends_[v - 1]; }
-
-  std::vector<std::uint32_t> ends_;
-  Array<Entry> entries_;
-};
-
-/// Finds for each corner the one whose halfedge runs the other way along its edge, or kNone.
+/// Finds for each corner the one whose halfedge runs the other way along its edge, or kNone, with one
+/// look at each. Corners whose mates are still to come hang in chains, one per vertex for the edges
+/// to vertices of higher index; `mates` holds the chains until it holds the mates, so that hardly any
+/// memory is touched but what is kept. Two pairs along one edge go unnoticed here.
 /// \pre indices are in range and differ within each face
-/// \return false if two halfedges are the same: mates are then of no use
-[[nodiscard]] inline bool find_mates(const Corners& corners, Array<std::uint32_t>& mates) {
-  RisingHalfedges rising(corners);
-  if (!rising.prepare()) {
-    return false;
-  }
-  mates.assign(corners.count, kNone);
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> single;
+/// \return false if two halfedges were seen to be the same, or the chains are too long, as they are
+///   where thousands of faces meet in an unlucky order; mates are then of no use
+[[nodiscard]] inline bool chain_mates(const Corners& corners, Array<std::uint32_t>& mates) {
+  std::vector<std::uint32_t> heads(corners.vertices, kNone);
+  mates.resize(corners.count);
+  std::uint64_t steps_left = 32 * std::uint64_t{corners.count};
   for (std::uint32_t c = 0; c < corners.count; ++c) {
     const std::uint32_t from = corners.from(c);
     const std::uint32_t to = corners.to(c);
-    if (from < to) {
-      continue;
+    std::uint32_t* link = &heads[std::min(from, to)];
+    std::uint32_t other = *link;
+    // The lower ends agree: so do the edges if the sums of the ends do.
+    const std::uint64_t ends = std::uint64_t{from} + to;
+    while (other != kNone && std::uint64_t{corners.from(other)} + corners.to(other) != ends) {
+      link = &mates[other];
+      other = *link;
+      if (steps_left-- == 0) {
+        return false;
+      }
     }
-    const std::uint32_t mate = rising.find(to, from);
-    if (mate == kNone) {
-      single.emplace_back(from, to);
-    } else if (mates[mate] != kNone) {
+    if (other == kNone) {
+      mates[c] = heads[std::min(from, to)];
+      heads[std::min(from, to)] = c;
+    } else if (corners.from(other) == from) {
       return false;
     } else {
-      mates[mate] = c;
-      mates[c] = mate;
+      *link = mates[other];
+      mates[other] = c;
+      mates[c] = other;
     }
   }
-  std::sort(single.begin(), single.end());
-  return std::adjacent_find(single.begin(), single.end()) == single.end();
+  for (std::uint32_t corner : heads) {
+    while (corner != kNone) {
+      corner = std::exchange(mates[corner], kNone);
+    }
+  }
+  return true;
+}
+
+/// The same for soups of any kind, by sorting: slower.
+[[nodiscard]] inline bool sort_mates(const Corners& corners, Array<std::uint32_t>& mates) {
+  struct Entry {
+    std::uint32_t low;
+    std::uint32_t high;
+    std::uint32_t corner;
+    [[nodiscard]] bool same_edge(const Entry& e) const { return low == e.low && high == e.high; }
+  };
+  std::vector<Entry> entries(corners.count);
+  for (std::uint32_t c = 0; c < corners.count; ++c) {
+    const auto [low, high] = std::minmax({corners.from(c), corners.to(c)});
+    entries[c] = {low, high, c};
+  }
+  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    return std::tie(a.low, a.high, a.corner) < std::tie(b.low, b.high, b.corner);
+  });
+  mates.assign(corners.count, kNone);
+  for (std::size_t n = 1; n < entries.size(); ++n) {
+    const Entry& a = entries[n - 1];
+    const Entry& b = entries[n];
+    if (!a.same_edge(b)) {
+      continue;
+    }
+    if (mates[a.corner] != kNone || corners.from(a.corner) == corners.from(b.corner)) {
+      return false;
+    }
+    mates[a.corner] = b.corner;
+    mates[b.corner] = a.corner;
+  }
+  return true;
 }
 
 /// Finds for each vertex a corner from which the others are reached by turning one way, or kNone.
-/// \return false if the faces of some vertex are more than one fan
+/// \return false if the faces of some vertex are more than one fan, or have more than two faces along
+///   an edge: the vertex at its other end is then met twice on the way round
 [[nodiscard]] inline bool find_first_corners(const Corners& corners,
                                              const Array<std::uint32_t>& mates,
                                              Array<std::uint32_t>& first) {
@@ -166,16 +141,22 @@ class RisingHalfedges {
       first[v] = c;
     }
   }
+  std::vector<std::uint32_t> met_by(corners.vertices, kNone);
   for (std::uint32_t v = 0; v < corners.vertices; ++v) {
-    if (first[v] == kNone) {
-      continue;
+    for (std::uint32_t c = first[v]; c != kNone;) {
+      const std::uint32_t neighbour = corners.to(c);
+      if (std::exchange(met_by[neighbour], v) == v) {
+        return false;
+      }
+      --faces[v];
+      const std::uint32_t previous = Corners::previous(c);
+      c = mates[previous];
+      if (c == kNone && met_by[corners.from(previous)] == v) {
+        return false;
+      }
+      c = c == first[v] ? kNone : c;
     }
-    std::uint32_t reached = 1;
-    for (std::uint32_t c = mates[Corners::previous(first[v])]; c != kNone && c != first[v];
-         c = mates[Corners::previous(c)]) {
-      ++reached;
-    }
-    if (reached != faces[v]) {
+    if (faces[v] != 0) {
       return false;
     }
   }
@@ -183,11 +164,11 @@ class RisingHalfedges {
 }
 
 /// Numbers the halfedges of a soup that is an oriented manifold.
-/// \pre as find_mates()
+/// \pre as chain_mates()
 /// \return false if it is not
 [[nodiscard]] inline bool connect(const Corners& corners, Halfedges& halfedges) {
   Array<std::uint32_t>& of_corner = halfedges.of_corner;
-  if (!find_mates(corners, of_corner) ||
+  if ((!chain_mates(corners, of_corner) && !sort_mates(corners, of_corner)) ||
       !find_first_corners(corners, of_corner, halfedges.leaving)) {
     return false;
   }

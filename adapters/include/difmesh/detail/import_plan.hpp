@@ -3,10 +3,10 @@
 /// From a view of a mesh to halfedges that can be written into any library. Internal to the
 /// adapters.
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -41,7 +41,11 @@ inline void check_arrays(const MeshView& view, const ImportOptions& options, dou
                                             std::to_string(view.vertices) + " vertices");
     }
   }
+  bool fits = true;
   for (std::int64_t n = 0; n < 3 * view.vertices; ++n) {
+    fits = fits & (std::abs(view.positions[n]) <= largest);
+  }
+  for (std::int64_t n = 0; !fits && n < 3 * view.vertices; ++n) {
     if (!(std::abs(view.positions[n]) <= largest)) {
       fail(ErrorCode::invalid_value, "the position of vertex " + std::to_string(n / 3) +
                                          " is not finite or too large for the library's numbers");

@@ -4,10 +4,12 @@
 
 #include <OpenMesh/Core/Mesh/Handles.hh>
 #include <OpenMesh/Core/Utils/Property.hh>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
