@@ -30,6 +30,8 @@ foreach(part IN ITEMS io metrics)
   endif()
 endforeach()
 set(difmesh_capi_static_needs "")
+set(difmesh_fortran_parts capi)
+set(difmesh_fortran_needs "")
 
 # One export set per part, so that users find only the dependencies of the parts that they ask for.
 get_property(difmesh_parts GLOBAL PROPERTY difmesh_parts)
@@ -40,6 +42,9 @@ foreach(part IN LISTS difmesh_parts)
   endif()
   string(APPEND difmesh_needs "set(difmesh_${part}_parts \"${difmesh_${part}_parts}\")\n")
   string(APPEND difmesh_needs "set(difmesh_${part}_needs \"${difmesh_${part}_needs}\")\n")
+  if(part STREQUAL "fortran")  # compiled in its users' builds
+    continue()
+  endif()
   install(EXPORT difmesh_${part}_targets NAMESPACE difmesh:: DESTINATION ${difmesh_package_dir})
 endforeach()
 

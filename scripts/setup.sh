@@ -19,6 +19,7 @@ packages=(
   abigail-tools                   # tests: the C interface keeps its ABI
   clang                           # tests: warnings in installed headers
   libeigen3-dev                   # examples with CGAL
+  gfortran                        # the Fortran module
   clang-format git                # tests: formatting
 )
 if [ "${1:-}" = "--bench" ]; then

@@ -21,6 +21,14 @@ set(expected
   ${package_dir}/difmesh-config-version.cmake
   ${package_dir}/difmesh-config.cmake)
 foreach(part IN LISTS outer_parts)
+  if(part STREQUAL "fortran")
+    list(APPEND expected ${package_dir}/difmesh_fortran_targets.cmake)
+    file(GLOB sources RELATIVE ${outer_source_dir}/bindings/fortran
+      ${outer_source_dir}/bindings/fortran/*.f90)
+    list(TRANSFORM sources PREPEND ${outer_includedir}/difmesh/fortran/)
+    list(APPEND expected ${sources})
+    continue()
+  endif()
   list(APPEND expected ${package_dir}/difmesh_${part}_targets.cmake)
   if(NOT part STREQUAL "adapters") # headers only
     list(APPEND expected ${package_dir}/difmesh_${part}_targets-${config_suffix}.cmake)
@@ -64,7 +72,7 @@ endif()
 # Text must not name the folders of this build, nor anything the parts of CGAL under the GPL. The
 # adapter to CGAL includes headers under the LGPL, and names others in comments.
 foreach(file IN LISTS installed)
-  if(file MATCHES "\\.(h|hpp|cmake|pc)$")
+  if(file MATCHES "\\.(h|hpp|f90|cmake|pc)$")
     file(READ "${first_prefix}/${file}" text)
     foreach(folder IN ITEMS ${outer_source_dir} ${outer_build_dir} ${first_prefix})
       string(FIND "${text}" "${folder}" at)

@@ -1,0 +1,356 @@
+! Triangle meshes.
+module difmesh_meshes
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_float, c_int32_t, &
+    c_int64_t, c_loc, c_null_ptr, c_ptr, c_sizeof
+  use difmesh_types
+  use difmesh_c
+  use difmesh_basics
+  use difmesh_shapes, only: dif_shape
+  implicit none
+  private
+
+  ! A mesh of the library, which frees itself. Triangles are counter-clockwise seen from the empty
+  ! side. Assignment copies it, without its report. All procedures but clear() and the counts have a
+  ! status, dif_ok or one of dif_error_..., and can give the message that says what is wrong; those
+  ! that make a mesh leave it as it was if they fail.
+  type, public :: dif_mesh
+    private
+    type(c_ptr) :: handle = c_null_ptr
+  contains
+    ! Making it.
+    procedure, public :: reconstruct
+    procedure, public :: reconstruct_block
+    procedure, public :: weld
+    procedure, public :: set_arrays
+    procedure, public :: read => read_file
+    procedure, public :: clear
+    ! Its arrays: get_...() allocate copies.
+    procedure, public :: vertex_count
+    procedure, public :: triangle_count
+    procedure, private :: get_points_real64, get_points_real32
+    generic, public :: get_points => get_points_real64, get_points_real32
+    procedure, private :: get_normals_real64, get_normals_real32
+    generic, public :: get_normals => get_normals_real64, get_normals_real32
+    procedure, private :: get_triangles_int32, get_triangles_int64
+    generic, public :: get_triangles => get_triangles_int32, get_triangles_int64
+    procedure, public :: get_edge_ids
+    procedure, public :: borrow_points
+    ! Facts about it.
+    procedure, public :: get_report
+    procedure, public :: measure
+    procedure, private :: distance_to_mesh, distance_to_shape
+    generic, public :: distance_to => distance_to_mesh, distance_to_shape
+    procedure, public :: write => write_file
+    ! For the module difmesh_c.
+    procedure, public :: c_handle
+    procedure, private :: copy
+    generic, public :: assignment(=) => copy
+    final :: free
+  end type
+
+contains
+
+  ! The surface of a field; see dif_reconstruct in difmesh.h.
+  subroutine reconstruct(mesh, field, status, options, message)
+    class(dif_mesh), intent(inout) :: mesh
+    type(dif_field), intent(in) :: field
+    integer(c_int32_t), intent(out) :: status
+    type(dif_options), intent(in), optional :: options
+    character(*), intent(inout), optional :: message
+    type(c_ptr) :: made
+    call finish(dif_reconstruct(field, options, made), status, message)
+    call take(mesh, made, status)
+  end subroutine
+
+  ! The surface of a block of a larger grid, for weld(). Experimental.
+  subroutine reconstruct_block(mesh, field, block, grid, status, options, message)
+    class(dif_mesh), intent(inout) :: mesh
+    type(dif_field), intent(in) :: field
+    type(dif_block), intent(in) :: block
+    type(dif_grid), intent(in) :: grid
+    integer(c_int32_t), intent(out) :: status
+    type(dif_options), intent(in), optional :: options
+    character(*), intent(inout), optional :: message
+    type(c_ptr) :: made
+    call finish(dif_reconstruct_block(field, block, grid, options, made), status, message)
+    call take(mesh, made, status)
+  end subroutine
+
+  ! Joins the meshes of disjoint blocks of a grid. Experimental.
+  subroutine weld(mesh, parts, grid, status, message)
+    class(dif_mesh), intent(inout) :: mesh
+    type(dif_mesh), intent(in) :: parts(:)
+    type(dif_grid), intent(in) :: grid
+    integer(c_int32_t), intent(out) :: status
+    character(*), intent(inout), optional :: message
+    type(c_ptr) :: made
+    call finish(dif_mesh_weld(parts%handle, size(parts, kind=c_int64_t), grid, made), &
+      status, message)
+    call take(mesh, made, status)
+  end subroutine
+
+  ! Copies points(3, n) and triangles(3, m), whose indices count from 1.
+  subroutine set_arrays(mesh, points, triangles, status, message)
+    class(dif_mesh), intent(inout) :: mesh
+    real(c_double), intent(in) :: points(:, :)
+    integer(c_int32_t), intent(in) :: triangles(:, :)
+    integer(c_int32_t), intent(out) :: status
+    character(*), intent(inout), optional :: message
+    type(c_ptr) :: made
+    if (size(points, 1) /= 3 .or. size(triangles, 1) /= 3) then
+      call refuse('points and triangles must have shapes (3, n) and (3, m)', status, message)
+      return
+    end if
+    if (any(triangles < 1 .or. triangles > size(points, 2))) then
+      call refuse('triangles refer to vertices that are not there', status, message)
+      return
+    end if
+    call finish(dif_mesh_from_arrays(points, size(points, 2, c_int64_t), triangles - 1, &
+      size(triangles, 2, c_int64_t), made), status, message)
+    call take(mesh, made, status)
+  end subroutine
+
+  ! From .ply, .obj, .off or .stl.
+  subroutine read_file(mesh, path, status, message)
+    class(dif_mesh), intent(inout) :: mesh
+    character(*), intent(in) :: path
+    integer(c_int32_t), intent(out) :: status
+    character(*), intent(inout), optional :: message
+    type(c_ptr) :: made
+    call finish(dif_mesh_read(to_c(path), made), status, message)
+    call take(mesh, made, status)
+  end subroutine
+
+  subroutine take(mesh, made, status)
+    class(dif_mesh), intent(inout) :: mesh
+    type(c_ptr), intent(in) :: made
+    integer(c_int32_t), intent(in) :: status
+    if (status /= dif_ok) return
+    call mesh%clear()
+    mesh%handle = made
+  end subroutine
+
+  ! Frees its memory; what was borrowed must not be used any more.
+  subroutine clear(mesh)
+    class(dif_mesh), intent(inout) :: mesh
+    call dif_mesh_free(mesh%handle)
+    mesh%handle = c_null_ptr
+  end subroutine
+
+  impure elemental subroutine free(mesh)
+    type(dif_mesh), intent(inout) :: mesh
+    call mesh%clear()
+  end subroutine
+
+  subroutine copy(mesh, from)
+    class(dif_mesh), intent(inout) :: mesh
+    type(dif_mesh), intent(in) :: from
+    type(c_ptr) :: made, at
+    integer(c_int64_t) :: vertices, triangles, count
+    real(c_double), pointer :: numbers(:)
+    integer(c_int32_t), pointer :: corners(:)
+    integer(c_int64_t), pointer :: names(:)
+    real(c_double), target :: no_numbers(0)
+    integer(c_int32_t), target :: no_corners(0)
+    integer(c_int32_t) :: status
+    if (c_associated(from%handle, mesh%handle)) return
+    call mesh%clear()
+    if (.not. c_associated(from%handle)) return
+    numbers => no_numbers
+    corners => no_corners
+    status = dif_mesh_positions(from%handle, at, vertices)
+    if (vertices > 0) call c_f_pointer(at, numbers, [3*vertices])
+    status = dif_mesh_triangles(from%handle, at, triangles)
+    if (triangles > 0) call c_f_pointer(at, corners, [3*triangles])
+    status = dif_mesh_from_arrays(numbers, vertices, corners, triangles, made)
+    if (status /= dif_ok) return  ! out of memory: an empty mesh
+    mesh%handle = made
+    status = dif_mesh_normals(from%handle, at, count)
+    if (count > 0) then
+      call c_f_pointer(at, numbers, [3*count])
+      status = dif_mesh_set_normals(made, numbers)
+    end if
+    status = dif_mesh_edge_ids(from%handle, at, count)
+    if (count > 0) then
+      call c_f_pointer(at, names, [count])
+      status = dif_mesh_set_edge_ids(made, names)
+    end if
+  end subroutine
+
+  integer(c_int64_t) function vertex_count(mesh)
+    class(dif_mesh), intent(in) :: mesh
+    type(c_ptr) :: ignored
+    if (dif_mesh_positions(mesh%handle, ignored, vertex_count) /= dif_ok) vertex_count = 0
+  end function
+
+  integer(c_int64_t) function triangle_count(mesh)
+    class(dif_mesh), intent(in) :: mesh
+    type(c_ptr) :: ignored
+    if (dif_mesh_triangles(mesh%handle, ignored, triangle_count) /= dif_ok) triangle_count = 0
+  end function
+
+  ! Coordinates, points(3, n).
+  subroutine get_points_real64(mesh, points, status, message)
+    class(dif_mesh), intent(in) :: mesh
+    real(c_double), allocatable, target, intent(out) :: points(:, :)
+    integer(c_int32_t), intent(out) :: status
+    character(*), intent(inout), optional :: message
+    integer :: code
+    allocate (points(3, mesh%vertex_count()), stat=code)
+    if (no_room(code, status, message)) return
+    call finish(dif_mesh_copy_positions(mesh%handle, dif_float64, 3_c_int64_t, &
+      size(points, kind=c_int64_t), c_loc(points)), status, message)
+  end subroutine
+
+  subroutine get_points_real32(mesh, points, status, message)
+    class(dif_mesh), intent(in) :: mesh
+    real(c_float), allocatable, target, intent(out) :: points(:, :)
+    integer(c_int32_t), intent(out) :: status
+    character(*), intent(inout), optional :: message
+    integer :: code
+    allocate (points(3, mesh%vertex_count()), stat=code)
+    if (no_room(code, status, message)) return
+    call finish(dif_mesh_copy_positions(mesh%handle, dif_float32, 3_c_int64_t, &
+      size(points, kind=c_int64_t), c_loc(points)), status, message)
+  end subroutine
+
+  ! Unit normals at the vertices, normals(3, n); see options%vertex_normals.
+  subroutine get_normals_real64(mesh, normals, status, message)
+    class(dif_mesh), intent(in) :: mesh
+    real(c_double), allocatable, target, intent(out) :: normals(:, :)
+    integer(c_int32_t), intent(out) :: status
+    character(*), intent(inout), optional :: message
+    integer :: code
+    allocate (normals(3, mesh%vertex_count()), stat=code)
+    if (no_room(code, status, message)) return
+    call finish(dif_mesh_copy_normals(mesh%handle, dif_float64, 3_c_int64_t, &
+      size(normals, kind=c_int64_t), c_loc(normals)), status, message)
+  end subroutine
+
+  subroutine get_normals_real32(mesh, normals, status, message)
+    class(dif_mesh), intent(in) :: mesh
+    real(c_float), allocatable, target, intent(out) :: normals(:, :)
+    integer(c_int32_t), intent(out) :: status
+    character(*), intent(inout), optional :: message
+    integer :: code
+    allocate (normals(3, mesh%vertex_count()), stat=code)
+    if (no_room(code, status, message)) return
+    call finish(dif_mesh_copy_normals(mesh%handle, dif_float32, 3_c_int64_t, &
+      size(normals, kind=c_int64_t), c_loc(normals)), status, message)
+  end subroutine
+
+  ! Indices of the triangles' vertices, triangles(3, m), from 1.
+  subroutine get_triangles_int32(mesh, triangles, status, message)
+    class(dif_mesh), intent(in) :: mesh
+    integer(c_int32_t), allocatable, target, intent(out) :: triangles(:, :)
+    integer(c_int32_t), intent(out) :: status
+    character(*), intent(inout), optional :: message
+    integer :: code
+    allocate (triangles(3, mesh%triangle_count()), stat=code)
+    if (no_room(code, status, message)) return
+    call finish(dif_mesh_copy_triangles(mesh%handle, dif_int32, 1_c_int64_t, 3_c_int64_t, &
+      size(triangles, kind=c_int64_t), c_loc(triangles)), status, message)
+  end subroutine
+
+  subroutine get_triangles_int64(mesh, triangles, status, message)
+    class(dif_mesh), intent(in) :: mesh
+    integer(c_int64_t), allocatable, target, intent(out) :: triangles(:, :)
+    integer(c_int32_t), intent(out) :: status
+    character(*), intent(inout), optional :: message
+    integer :: code
+    allocate (triangles(3, mesh%triangle_count()), stat=code)
+    if (no_room(code, status, message)) return
+    call finish(dif_mesh_copy_triangles(mesh%handle, dif_int64, 1_c_int64_t, 3_c_int64_t, &
+      size(triangles, kind=c_int64_t), c_loc(triangles)), status, message)
+  end subroutine
+
+  ! Names of the vertices' edges, as difmesh.h has them, so counted from 0; of size 0 if the mesh
+  ! has none: see options%edge_ids.
+  subroutine get_edge_ids(mesh, ids, status, message)
+    class(dif_mesh), intent(in) :: mesh
+    integer(c_int64_t), allocatable, intent(out) :: ids(:)
+    integer(c_int32_t), intent(out) :: status
+    character(*), intent(inout), optional :: message
+    type(c_ptr) :: at
+    integer(c_int64_t) :: count
+    integer(c_int64_t), pointer :: names(:)
+    integer :: code
+    call finish(dif_mesh_edge_ids(mesh%handle, at, count), status, message)
+    if (status /= dif_ok) return
+    allocate (ids(count), stat=code)
+    if (no_room(code, status, message) .or. count == 0) return
+    call c_f_pointer(at, names, [count])
+    ids = names
+  end subroutine
+
+  ! The mesh's own points(3, n), until it is cleared or another is made; not associated if there
+  ! are none.
+  function borrow_points(mesh) result(points)
+    class(dif_mesh), intent(in) :: mesh
+    real(c_double), pointer :: points(:, :)
+    type(c_ptr) :: at
+    integer(c_int64_t) :: count
+    nullify (points)
+    if (dif_mesh_positions(mesh%handle, at, count) /= dif_ok) return
+    if (count > 0) call c_f_pointer(at, points, [3_c_int64_t, count])
+  end function
+
+  ! Facts about a reconstruction.
+  subroutine get_report(mesh, report, status, message)
+    class(dif_mesh), intent(in) :: mesh
+    type(dif_report), intent(out) :: report
+    integer(c_int32_t), intent(out) :: status
+    character(*), intent(inout), optional :: message
+    call dif_init(report)
+    call finish(dif_mesh_report(mesh%handle, report), status, message)
+  end subroutine
+
+  ! Facts about any mesh.
+  subroutine measure(mesh, facts, status, message)
+    class(dif_mesh), intent(in) :: mesh
+    type(dif_measure), intent(out) :: facts
+    integer(c_int32_t), intent(out) :: status
+    character(*), intent(inout), optional :: message
+    call dif_init(facts)
+    call finish(dif_mesh_measure(mesh%handle, facts), status, message)
+  end subroutine
+
+  subroutine distance_to_mesh(mesh, reference, distance, status, options, message)
+    class(dif_mesh), intent(in) :: mesh
+    type(dif_mesh), intent(in) :: reference
+    type(dif_distance), intent(out) :: distance
+    integer(c_int32_t), intent(out) :: status
+    type(dif_distance_options), intent(in), optional :: options
+    character(*), intent(inout), optional :: message
+    call dif_init(distance)
+    call finish(dif_distance_to_mesh(mesh%handle, reference%handle, options, distance), &
+      status, message)
+  end subroutine
+
+  subroutine distance_to_shape(mesh, shape, distance, status, options, message)
+    class(dif_mesh), intent(in) :: mesh
+    type(dif_shape), intent(in) :: shape
+    type(dif_distance), intent(out) :: distance
+    integer(c_int32_t), intent(out) :: status
+    type(dif_distance_options), intent(in), optional :: options
+    character(*), intent(inout), optional :: message
+    call dif_init(distance)
+    call finish(dif_distance_to_shape(mesh%handle, shape%c_handle(), options, distance), &
+      status, message)
+  end subroutine
+
+  ! To .ply (double precision), .obj, .off or .stl.
+  subroutine write_file(mesh, path, status, options, message)
+    class(dif_mesh), intent(in) :: mesh
+    character(*), intent(in) :: path
+    integer(c_int32_t), intent(out) :: status
+    type(dif_mesh_write_options), intent(in), optional :: options
+    character(*), intent(inout), optional :: message
+    call finish(dif_mesh_write(mesh%handle, to_c(path), options), status, message)
+  end subroutine
+
+  type(c_ptr) function c_handle(mesh)
+    class(dif_mesh), intent(in) :: mesh
+    c_handle = mesh%handle
+  end function
+end module

@@ -1,0 +1,20 @@
+program bindings_fortran_test
+  use expect_module, only: failures
+  use fields_test
+  use meshes_test
+  implicit none
+  call test_views()
+  call test_bad_views()
+  call test_samples()
+  call test_planes()
+  call test_plane_arrays()
+  call test_files()
+  call test_arrays()
+  call test_results()
+  call test_progress()
+  call test_blocks()
+  call test_mesh_files()
+  call test_distance()
+  if (failures > 0) error stop 'some expectations failed'
+  print '(a)', 'all expectations hold'
+end program

@@ -1,0 +1,207 @@
+! Meshes, callbacks and blocks.
+module meshes_test
+  use, intrinsic :: iso_c_binding
+  use difmesh
+  use difmesh_c, only: dif_has
+  use expect_module
+  implicit none
+  private
+  public :: test_arrays, test_results, test_progress, test_blocks, test_mesh_files, test_distance
+
+  integer :: calls = 0
+
+contains
+
+  subroutine test_arrays()
+    real(8), parameter :: points(3, 4) = reshape( &
+      [0d0, 0d0, 0d0, 1d0, 0d0, 0d0, 0d0, 1d0, 0d0, 0d0, 0d0, 1d0], [3, 4])
+    integer, parameter :: faces(3, 4) = reshape([1, 3, 2, 1, 2, 4, 2, 3, 4, 1, 4, 3], [3, 4])
+    type(dif_mesh) :: mesh, copy, many(2)
+    type(dif_measure) :: facts
+    real(8), allocatable :: again(:, :), normals(:, :)
+    real(4), allocatable :: single(:, :)
+    real(8), pointer :: borrowed(:, :)
+    integer, allocatable :: triangles(:, :)
+    integer(8), allocatable :: long(:, :), ids(:)
+    integer :: status
+    character(1000) :: message
+    call mesh%set_arrays(points, faces, status)
+    call expect(status == dif_ok, 'a mesh from arrays')
+    call mesh%measure(facts, status)
+    call expect_near(facts%volume, 1/6d0, 1d-15, 'volume of a tetrahedron')
+    call expect_near(facts%area, 1.5d0 + sqrt(3d0)/2, 1d-15, 'its area')
+    call expect(facts%closed == 1 .and. facts%euler_number == 2, 'it is closed')
+
+    copy = mesh
+    many(1) = copy
+    many(2) = many(1)
+    call mesh%clear()
+    call expect(mesh%vertex_count() == 0, 'vertices of a mesh that is cleared')
+    call expect(mesh%triangle_count() == 0, 'triangles of a mesh that is cleared')
+    call expect_same(copy, many(2), 'copies')
+    call copy%get_points(again, status)
+    call expect(maxval(abs(again - points)) <= 0, 'points')
+    call copy%get_points(single, status)
+    call expect(maxval(abs(single - points)) <= 0, 'points in single precision')
+    call copy%get_triangles(triangles, status)
+    call expect(all(triangles == faces), 'triangles count from 1')
+    call copy%get_triangles(long, status)
+    call expect(all(long == faces), 'triangles in 8 bytes')
+    borrowed => copy%borrow_points()
+    call expect(maxval(abs(borrowed - points)) <= 0, 'borrowed points')
+    call copy%get_edge_ids(ids, status)
+    call expect(status == dif_ok .and. size(ids) == 0, 'no names of edges')
+    call copy%get_normals(normals, status, message)
+    call expect(status == dif_error_invalid_argument, 'no normals')
+    call expect(index(message, 'vertex_normals') > 0, 'how to get them: '//trim(message))
+    call mesh%get_points(again, status)
+    call expect(status == dif_error_invalid_argument, 'points of no mesh')
+
+    call copy%set_arrays(points, faces + 1, status, message)
+    call expect(status == dif_error_invalid_argument, 'an index out of range')
+    call copy%set_arrays(points(:2, :), faces, status)
+    call expect(status == dif_error_invalid_argument, 'no points in space')
+    call expect_same(copy, many(1), 'left as it was')
+  end subroutine
+
+  subroutine test_results()
+    real(8), target :: c(24, 19, 21)
+    type(dif_options) :: options
+    type(dif_mesh) :: mesh, copy
+    type(dif_report) :: report
+    real(8), allocatable :: points(:, :), normals(:, :), again(:, :)
+    integer(8), allocatable :: ids(:)
+    integer :: status, n
+    c = ball(24, 19, 21)
+    call dif_init(options)
+    options%vertex_normals = 1
+    options%edge_ids = 1
+    call mesh%reconstruct(dif_view(c), status, options)
+    call mesh%get_report(report, status)
+    call expect(report%cells == 24*19*21 .and. report%closed == 1, 'a report')
+    call mesh%get_points(points, status)
+    call mesh%get_normals(normals, status)
+    call expect(all(shape(normals) == shape(points)), 'a normal per vertex')
+    do n = 1, size(points, 2)
+      call expect(dot_product(normals(:, n), points(:, n) - [12.3d0, 9.1d0, 10.4d0]) &
+        > 0.98d0*norm2(points(:, n) - [12.3d0, 9.1d0, 10.4d0]), 'normals point outwards')
+    end do
+    call mesh%get_edge_ids(ids, status)
+    call expect(size(ids) == size(points, 2), 'a name per vertex')
+    call expect(all(ids(2:) > ids(:size(ids) - 1)), 'names ascend')
+    copy = mesh
+    call copy%get_normals(again, status)
+    call expect(maxval(abs(again - normals)) <= 0, 'normals are copied')
+    call copy%get_report(report, status)
+    call expect(status == dif_error_invalid_argument, 'reports are not')
+    options%placement = 77
+    call mesh%reconstruct(dif_view(c), status, options)
+    call expect(status == dif_error_invalid_argument, 'no such placement')
+    call expect(mesh%vertex_count() == size(points, 2), 'a mesh is left as it was')
+  end subroutine
+
+  integer(c_int32_t) function stop_at_third(user, share_done) bind(c)
+    type(c_ptr), value :: user
+    real(c_double), value :: share_done
+    real(8), pointer :: last
+    call c_f_pointer(user, last)
+    last = share_done
+    calls = calls + 1
+    stop_at_third = merge(1, 0, calls == 3)
+  end function
+
+  subroutine test_progress()
+    real(8), target :: c(24, 19, 21), last
+    type(dif_options) :: options
+    type(dif_mesh) :: mesh
+    integer :: status
+    procedure(dif_progress), pointer :: callback
+    c = ball(24, 19, 21)
+    callback => stop_at_third
+    call dif_init(options)
+    options%progress = c_funloc(callback)
+    options%progress_user = c_loc(last)
+    call mesh%reconstruct(dif_view(c), status, options)
+    call expect(status == dif_error_cancelled .and. calls == 3, 'the third call cancels')
+    call mesh%reconstruct(dif_view(c), status, options)
+    call expect(status == dif_ok .and. calls > 4, 'later ones do not')
+    call expect_near(last, 1d0, 0d0, 'all is done')
+  end subroutine
+
+  subroutine test_blocks()
+    real(8), target :: c(24, 19, 21)
+    type(dif_mesh) :: whole, parts(2), welded
+    type(dif_block) :: block
+    type(dif_grid) :: grid
+    integer :: status
+    character(1000) :: message
+    c = ball(24, 19, 21)
+    grid = dif_make_grid([24, 19, 21], spacing=[0.5d0, 0.5d0, 0.25d0])
+    call whole%reconstruct(dif_view(c, spacing=grid%spacing), status)
+    call dif_init(block)
+    block%dims = [24, 19, 11]
+    block%ghost_high = [0_c_int64_t, 0_c_int64_t, dif_ghost_layers]
+    call parts(1)%reconstruct_block(dif_view(c(:, :, :16)), block, grid, status, message=message)
+    call expect(status == dif_ok, 'the lower block: '//trim(message))
+    block%offset = [0, 0, 11]
+    block%dims = [24, 19, 10]
+    block%ghost_low = block%ghost_high
+    block%ghost_high = 0
+    call parts(2)%reconstruct_block(dif_view(c(:, :, 7:)), block, grid, status, message=message)
+    call expect(status == dif_ok, 'the upper block: '//trim(message))
+    call expect(parts(2)%vertex_count() < whole%vertex_count(), 'a part of the whole')
+    call welded%weld(parts, grid, status)
+    call expect_same(welded, whole, 'blocks')
+  end subroutine
+
+  subroutine test_mesh_files()
+    real(8), target :: c(24, 19, 21)
+    type(dif_mesh) :: mesh, again
+    type(dif_mesh_write_options) :: options
+    integer :: status
+    character(1000) :: message
+    if (dif_has(dif_part_files) == 0) return
+    c = ball(24, 19, 21)
+    call mesh%reconstruct(dif_view(c), status)
+    call mesh%write('meshes_test.ply   ', status)
+    call expect(status == dif_ok, 'a mesh is written')
+    call again%read('meshes_test.ply', status)
+    call expect_same(mesh, again, 'a file')
+    call dif_init(options)
+    options%format = dif_mesh_format_off
+    call mesh%write('meshes_test.ply', status, options)
+    call again%read('meshes_test.ply', status, message)
+    call expect(status == dif_error_file_format, 'not what the extension says')
+    call again%read('no_such.ply', status, message)
+    call expect(status == dif_error_file_missing, 'no file')
+    call expect_same(mesh, again, 'a mesh after a file that is not there')
+    open (unit=11, file='meshes_test.ply')
+    close (11, status='delete')
+  end subroutine
+
+  subroutine test_distance()
+    real(8), target :: c(24, 19, 21)
+    real(8), allocatable :: points(:, :), distances(:)
+    type(dif_mesh) :: mesh
+    type(dif_shape) :: shape
+    type(dif_shape_options) :: options
+    type(dif_distance) :: distance
+    integer :: status
+    if (dif_has(dif_part_distance) == 0) return
+    c = ball(24, 19, 21)
+    call mesh%reconstruct(dif_view(c), status)
+    call dif_init(options)
+    options%centre = [12.3d0, 9.1d0, 10.4d0]
+    options%radius = 6.5d0
+    call shape%create(options, status)
+    call mesh%distance_to(shape, distance, status)
+    call mesh%get_points(points, status)
+    allocate (distances(size(points, 2)))
+    call shape%distances(points, distances, status)
+    call expect_near(distance%vertices%signed_mean, sum(distances)/size(distances), 1d-12, &
+      'mean distance')
+    call expect_near(distance%vertices%maximum, maxval(abs(distances)), 1d-12, 'largest distance')
+    call mesh%distance_to(mesh, distance, status)
+    call expect_near(distance%facets%maximum, 0d0, 1d-12, 'distance to itself')
+  end subroutine
+end module
