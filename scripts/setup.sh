@@ -20,6 +20,8 @@ packages=(
   clang                           # tests: warnings in installed headers
   libeigen3-dev                   # examples with CGAL
   gfortran                        # the Fortran module
+  python3-numpy                   # the Python package
+  python3-pip python3-wheel mypy  # tests: that it can be installed, and its type hints
   clang-format git                # tests: formatting
 )
 if [ "${1:-}" = "--bench" ]; then

@@ -1,0 +1,92 @@
+"""Accurate triangle surfaces from volume fractions.
+
+    import difmesh
+
+    mesh = difmesh.reconstruct(fractions, spacing=0.01)  # fractions[k, j, i]
+    mesh.points, mesh.faces                              # NumPy arrays
+    mesh.save("surface.ply")
+
+Functions that take or give coordinates, spacings, numbers of cells (`dims`) or cells use the order
+x, y, z. Arrays of fractions are indexed [k, j, i], that is [z, y, x], unless `axes="ijk"` is given.
+What the library refuses is raised as Error or one of its subclasses, with the library's message.
+"""
+
+from . import _library
+from ._distance import Distance, Statistics, distance, distance_both_ways
+from ._errors import (
+    CancelledError,
+    Error,
+    FileFormatError,
+    FileMissingError,
+    FileWriteError,
+    InvalidArgumentError,
+    InvalidGridError,
+    InvalidValueError,
+    OutOfMemoryError,
+    TooLargeError,
+    UnsupportedError,
+)
+from ._field import Field, FunctionReport, TriangleReport
+from ._files import read_field, write_field
+from ._fractions import Shape, sample_function, sample_mesh, sample_shape
+from ._mesh import Measure, Mesh, Report, read_mesh
+from ._options import choice as _choice
+from ._planes import Planes, cell_planes, normals, plane_fraction, plane_offset
+from ._reconstruct import GHOST_LAYERS, reconstruct, reconstruct_block, weld
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "GHOST_LAYERS",
+    "CancelledError",
+    "Distance",
+    "Error",
+    "Field",
+    "FileFormatError",
+    "FileMissingError",
+    "FileWriteError",
+    "FunctionReport",
+    "InvalidArgumentError",
+    "InvalidGridError",
+    "InvalidValueError",
+    "Measure",
+    "Mesh",
+    "OutOfMemoryError",
+    "Planes",
+    "Report",
+    "Shape",
+    "Statistics",
+    "TooLargeError",
+    "TriangleReport",
+    "UnsupportedError",
+    "cell_planes",
+    "distance",
+    "distance_both_ways",
+    "has",
+    "library_version",
+    "normals",
+    "plane_fraction",
+    "plane_offset",
+    "read_field",
+    "read_mesh",
+    "reconstruct",
+    "reconstruct_block",
+    "sample_function",
+    "sample_mesh",
+    "sample_shape",
+    "weld",
+    "write_field",
+]
+
+
+def library_version() -> str:
+    """Version of the library that was loaded, "0.1.0" for instance."""
+    text: bytes = _library.library.dif_version_text()
+    return text.decode()
+
+
+def has(part: str) -> bool:
+    """Whether the library was built with "threads", "files" or "distance"."""
+    number = _choice(part, {"threads": 1, "files": 2, "distance": 3}, "part")
+    present: int = _library.library.dif_has(number)
+    return present == 1

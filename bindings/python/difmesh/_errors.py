@@ -1,0 +1,88 @@
+"""Exceptions, one per status of difmesh.h that a caller may want to tell from others."""
+
+from __future__ import annotations
+
+from ._library import library
+
+
+class Error(Exception):
+    """What the library refused or failed at; the text is its own and names argument, cell or file.
+
+    `status` is the number in difmesh.h, `name` its constant, "DIF_ERROR_INVALID_GRID" for instance.
+    """
+
+    def __init__(self, message: str, status: int) -> None:
+        super().__init__(message)
+        self.status = status
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+    def __reduce__(self) -> tuple[type[Error], tuple[str, int]]:
+        return type(self), (str(self), self.status)
+
+    @property
+    def name(self) -> str:
+        text: bytes = library.dif_status_name(self.status)
+        return text.decode()
+
+
+class InvalidArgumentError(Error, ValueError):
+    """An argument or option is out of range or does not fit the others."""
+
+
+class InvalidGridError(InvalidArgumentError):
+    """The number of cells, origin or spacing is unusable."""
+
+
+class InvalidValueError(InvalidArgumentError):
+    """NaN, infinity or too much overshoot in a field, or a NaN of a function."""
+
+
+class TooLargeError(Error, OverflowError):
+    """Sizes overflow, or more than 2^32 - 1 indices are needed."""
+
+
+class OutOfMemoryError(Error, MemoryError):
+    """The library could not allocate what it needs."""
+
+
+class CancelledError(Error):
+    """A progress callback returned False."""
+
+
+class FileMissingError(Error, OSError):
+    """An input file cannot be opened."""
+
+
+class FileFormatError(Error, ValueError):
+    """An input file is malformed, truncated or not supported."""
+
+
+class FileWriteError(Error, OSError):
+    """An output file cannot be written; nothing is left behind."""
+
+
+class UnsupportedError(Error, NotImplementedError):
+    """This build of the library lacks the part; see has()."""
+
+
+_TYPES: dict[int, type[Error]] = {
+    10: InvalidArgumentError,
+    11: InvalidGridError,
+    12: InvalidValueError,
+    20: TooLargeError,
+    21: OutOfMemoryError,
+    30: CancelledError,
+    40: FileMissingError,
+    41: FileFormatError,
+    42: FileWriteError,
+    50: UnsupportedError,
+}
+
+
+def check(status: int) -> None:
+    """Raises what the status of the call before, on this thread, stands for."""
+    if status != 0:
+        message: bytes = library.dif_last_message()
+        raise _TYPES.get(status, Error)(message.decode(errors="replace"), status)

@@ -1,0 +1,62 @@
+"""A field of volume fractions with its place in space."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Union
+
+import numpy as np
+import numpy.typing as npt
+
+
+@dataclass(frozen=True)
+class FunctionReport:
+    """Facts about fractions of a function or shape."""
+
+    interfacial_cells: int  #: 0 < fraction < 1
+    sampled_cells: int  #: looked at beyond their corners
+    subdivided_cells: int  #: of these, bisected
+    unresolved_cells: int  #: of these, out of calls before the tolerances were met
+    largest_error_estimate: float
+    function_calls: int  #: points at which the function was evaluated
+    lattice_calls: int  #: of these, corners of the grid's cells
+    gradient_calls: int
+    fraction_volume: float
+    seconds: float
+
+
+@dataclass(frozen=True)
+class TriangleReport:
+    """Facts about fractions of a mesh."""
+
+    pieces: int  #: parts of triangles inside cells
+    cells_touched: int  #: all others are exactly 0 or 1
+    lowest_raw: float  #: least fraction before clamping
+    highest_raw: float  #: greatest
+    largest_gap: float  #: of a column's sum from an integer
+    fraction_volume: float  #: in the grid
+    mesh_volume: float  #: in the grid or not
+    seconds: float
+
+
+@dataclass(frozen=True, eq=False)
+class Field:
+    """Volume fractions, where they lie, and how they came about.
+
+    Can be given to all functions that take fractions; its spacing and origin are used unless others
+    are given. `numpy.asarray(field)` is `field.fractions`.
+    """
+
+    fractions: npt.NDArray[Any]  #: [k, j, i]; from a file: read-only
+    spacing: tuple[float, float, float] = (1.0, 1.0, 1.0)  #: edges of a cell in x, y, z
+    origin: tuple[float, float, float] = (0.0, 0.0, 0.0)  #: low corner of the grid
+    report: Union[FunctionReport, TriangleReport, None] = None  #: of the sample_...() functions
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> npt.NDArray[Any]:
+        if copy:
+            return np.array(self.fractions, dtype=dtype)
+        return np.asarray(self.fractions, dtype=dtype)
+
+    def __repr__(self) -> str:
+        nz, ny, nx = self.fractions.shape
+        return f"Field({nx} x {ny} x {nz} cells of {self.fractions.dtype})"

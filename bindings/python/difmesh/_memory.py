@@ -1,0 +1,168 @@
+"""NumPy arrays on memory of the library, and the library's view of NumPy arrays."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Sequence, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from ._field import Field
+from ._structs import FLOAT32, FLOAT64, UINT8, UINT16, DifField, DifGrid
+
+#: One number for all three axes, or three for x, y and z.
+Triple = Union[float, Sequence[float], npt.NDArray[Any]]
+Path = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
+
+TYPES: dict[np.dtype[Any], int] = {
+    np.dtype(np.float32): FLOAT32,
+    np.dtype(np.float64): FLOAT64,
+    np.dtype(np.uint8): UINT8,
+    np.dtype(np.uint16): UINT16,
+}
+
+
+class _Memory:
+    """Memory as NumPy asks for it. An array on it refers to this object, and so to the owner."""
+
+    def __init__(self, owner: object, interface: dict[str, Any]) -> None:
+        self.owner = owner
+        self.__array_interface__ = interface
+
+
+def from_address(
+    address: int | None,
+    shape: tuple[int, ...],
+    dtype: Any,
+    *,
+    strides: tuple[int, ...] | None = None,
+    owner: object = None,
+    writeable: bool = False,
+) -> npt.NDArray[Any]:
+    """An array on memory that `owner` keeps; strides in bytes."""
+    dtype = np.dtype(dtype)
+    if not address:  # no elements
+        empty = np.empty(shape, dtype)
+        empty.flags.writeable = writeable
+        return empty
+    interface = {
+        "version": 3,
+        "shape": shape,
+        "typestr": dtype.str,
+        "data": (address, not writeable),
+        "strides": strides,
+    }
+    return np.asarray(_Memory(owner, interface))
+
+
+def floats(three: Any) -> tuple[float, float, float]:
+    x, y, z = three
+    return x, y, z
+
+
+def triple(value: Triple, name: str) -> tuple[float, float, float]:
+    """x, y, z of one number or three."""
+    numbers = np.asarray(value, dtype=np.float64)
+    if numbers.shape not in ((), (3,)):
+        raise ValueError(
+            f"{name} must be one number or three (x, y, z), got an array of shape {numbers.shape}"
+        )
+    x, y, z = np.broadcast_to(numbers, 3).tolist()
+    return x, y, z
+
+
+def index_triple(value: int | Sequence[int] | npt.NDArray[Any], name: str) -> tuple[int, int, int]:
+    numbers = np.asarray(value)
+    if numbers.dtype.kind not in "iu" or numbers.shape not in ((), (3,)):
+        raise ValueError(f"{name} must be one integer or three (x, y, z), got {value!r}")
+    x, y, z = np.broadcast_to(numbers, 3).tolist()
+    return x, y, z
+
+
+def grid_struct(
+    dims: int | Sequence[int] | npt.NDArray[Any], spacing: Triple, origin: Triple
+) -> DifGrid:
+    return DifGrid(
+        dims=index_triple(dims, "dims"),
+        origin=triple(origin, "origin"),
+        spacing=triple(spacing, "spacing"),
+    )
+
+
+def axis_order(axes: str) -> slice:
+    """How an array's axes are to be taken so that they are those of x, y, z."""
+    if axes == "kji":
+        return slice(None, None, -1)
+    if axes == "ijk":
+        return slice(None)
+    raise ValueError(f"axes is {axes!r}; 'kji' and 'ijk' are possible")
+
+
+def fractions_array(fractions: Any) -> npt.NDArray[Any]:
+    """Checks what the library cannot know; copies nothing but masks."""
+    if isinstance(fractions, np.ma.MaskedArray):
+        raise TypeError("fractions are a masked array; give cells without a value one, by filled()")
+    array = np.asarray(fractions)
+    if array.ndim != 3:
+        raise ValueError(f"fractions must have 3 axes, got an array of shape {array.shape}")
+    if array.dtype == np.bool_:
+        return np.multiply(array, 255, dtype=np.uint8)
+    if not array.dtype.isnative:
+        raise TypeError(
+            f"fractions have dtype {array.dtype.str}, whose byte order is not this machine's; "
+            "convert them with astype(dtype.newbyteorder('='))"
+        )
+    if array.dtype not in TYPES:
+        raise TypeError(
+            f"fractions have dtype {array.dtype}; float32, float64, uint8, uint16 and bool are "
+            "possible: scale and convert them, for instance with astype(numpy.float32)"
+        )
+    size = array.itemsize
+    if not array.flags.aligned or any(
+        stride % size for stride, length in zip(array.strides, array.shape) if length > 1
+    ):
+        raise ValueError(
+            f"fractions lie unaligned: strides of {array.strides} bytes from an address of "
+            f"{array.ctypes.data % size} modulo {size}, for elements of {size} bytes; use copy()"
+        )
+    return array
+
+
+def field_struct(
+    fractions: Any, spacing: Triple | None, origin: Triple | None, axes: str
+) -> tuple[DifField, npt.NDArray[Any]]:
+    """The library's view of fractions, and the array that must outlive it."""
+    if isinstance(fractions, Field):
+        if axes != "kji":
+            raise ValueError("the axes of a Field are k, j, i")
+        spacing = fractions.spacing if spacing is None else spacing
+        origin = fractions.origin if origin is None else origin
+        fractions = fractions.fractions
+    array = fractions_array(fractions)
+    order = axis_order(axes)
+    strides = [
+        stride // array.itemsize if length > 1 else 0
+        for stride, length in zip(array.strides, array.shape)
+    ]
+    struct = DifField(
+        data=array.ctypes.data,
+        type=TYPES[array.dtype],
+        dims=array.shape[order],
+        strides=tuple(strides[order]),
+        origin=triple(0.0 if origin is None else origin, "origin"),
+        spacing=triple(1.0 if spacing is None else spacing, "spacing"),
+    )
+    return struct, array
+
+
+def path_bytes(path: Path) -> bytes:
+    name = os.fsencode(path)
+    if b"\0" in name:
+        raise ValueError("path holds a zero byte")
+    return name
+
+
+def address_of(array: npt.NDArray[Any]) -> int | None:
+    """NULL for no elements."""
+    return array.ctypes.data if array.size else None

@@ -1,0 +1,229 @@
+"""Triangle meshes."""
+
+from __future__ import annotations
+
+from ctypes import byref, c_int64, c_void_p
+from dataclasses import dataclass, fields
+from typing import Any, Optional
+
+import numpy as np
+import numpy.typing as npt
+
+from ._calls import Handle
+from ._errors import check
+from ._library import defaults, library
+from ._memory import Path, address_of, from_address, path_bytes
+from ._options import choice
+from ._structs import DifMeasure, DifMeshWriteOptions, DifReport
+
+_FORMATS = {"ply": 1, "obj": 2, "off": 3, "stl": 4}
+
+
+@dataclass(frozen=True)
+class Report:
+    """Facts about a reconstruction."""
+
+    cells: int  #: read
+    interfacial_cells: int  #: purity_tolerance < fraction < 1 - purity_tolerance
+    clamped_cells: int  #: fraction < 0 or > 1
+    largest_overshoot: float  #: largest distance of a fraction from [0, 1]
+    fraction_volume: float  #: sum of fraction x cell volume, clamped
+    planes: int  #: cells that were given a normal and a plane
+    height_function_cells: int  #: of these, with a normal from heights
+    gradient_free_cells: int  #: of these, without gradient: edge directions were used
+    solved_edges: int  #: vertices placed by the half-full window
+    newton_steps_mean: float  #: per solved edge
+    newton_steps_max: int
+    non_monotone_edges: int  #: solved edges where several positions half-fill the window
+    enclosed_volume: float  #: signed; 0 where not closed
+    closed: bool  #: no boundary edge; an empty mesh is closed
+    seconds_classify: float  #: wall time: the pass over the field
+    seconds_normals: float  #: normals and planes
+    seconds_count: float  #: counting and allocation of the output
+    seconds_vertices: float
+    seconds_triangles: float
+    seconds_total: float
+
+
+@dataclass(frozen=True)
+class Measure:
+    """Facts about a mesh from its arrays alone; vertices are told apart by index."""
+
+    vertices: int  #: in use or not
+    edges: int
+    triangles: int
+    components: int  #: of triangles joined by edges
+    isolated_vertices: int  #: in no triangle
+    boundary_edges: int  #: with one triangle
+    non_manifold_edges: int  #: with more than two
+    misoriented_edges: int  #: with two that run along it the same way
+    non_manifold_vertices: int  #: whose triangles are not one fan or one cycle
+    degenerate_triangles: int  #: an index twice, or area exactly 0
+    euler_number: int  #: V - E + F over the vertices in use
+    closed: bool  #: no boundary edge
+    manifold: bool  #: no non-manifold edge or vertex, no misoriented edge
+    area: float
+    volume: float  #: signed; meaningful where closed and well oriented
+    low: tuple[float, float, float]  #: bounding box of all positions
+    high: tuple[float, float, float]
+
+
+def to_dataclass(kind: type[Any], struct: Any) -> Any:
+    """A dataclass from the struct's fields of the same names."""
+    values = {}
+    for field in fields(kind):
+        value = getattr(struct, field.name)
+        if field.type in ("bool", bool):
+            value = value != 0
+        elif hasattr(value, "__len__"):
+            value = tuple(value)
+        values[field.name] = value
+    return kind(**values)
+
+
+def triples(array: Any, name: str) -> npt.NDArray[np.float64]:
+    """(n, 3) doubles without gaps; copied where they are not."""
+    result = np.ascontiguousarray(array, dtype=np.float64)
+    if result.ndim != 2 or result.shape[1] != 3:
+        raise ValueError(f"{name} must have shape (n, 3), got {result.shape}")
+    return np.require(result, requirements=["A", "C"])
+
+
+def indices(array: Any) -> npt.NDArray[np.uint32]:
+    given = np.asarray(array)
+    if given.size == 0:
+        given = given.reshape(-1, 3).astype(np.uint32)
+    if given.dtype.kind not in "iu":
+        raise TypeError(f"faces must be integers, got {given.dtype}")
+    if given.ndim != 2 or given.shape[1] != 3:
+        raise ValueError(f"faces must have shape (m, 3), got {given.shape}")
+    if given.size and (given.min() < 0 or given.max() > np.iinfo(np.uint32).max):
+        raise ValueError("faces hold an index that is negative or beyond 2^32 - 1")
+    return np.require(given, np.uint32, ["A", "C"])
+
+
+def new_mesh_handle() -> Handle:
+    return Handle(library.dif_mesh_free)
+
+
+class Mesh:
+    """Triangles, counter-clockwise seen from the empty side. Cannot be changed.
+
+    The arrays are read-only views of the library's memory, which lives as long as any of them or
+    the mesh; `copy()` them to write. May be used from several threads at once. Pickling copies the
+    arrays, but not the report.
+    """
+
+    __slots__ = ("_handle",)
+    _handle: Handle
+
+    def __init__(
+        self, points: Any, faces: Any, normals: Any = None, edge_ids: Any = None
+    ) -> None:
+        """Copies points (n, 3), faces (m, 3), and if given, normals (n, 3) and edge_ids (n,)."""
+        positions = triples(points, "points")
+        corners = indices(faces)
+        self._handle = new_mesh_handle()
+        check(
+            library.dif_mesh_from_arrays(
+                address_of(positions),
+                len(positions),
+                address_of(corners),
+                len(corners),
+                byref(self._handle.pointer),
+            )
+        )
+        if normals is not None:
+            vectors = triples(normals, "normals")
+            if len(vectors) != len(positions):
+                raise ValueError(f"{len(positions)} points, but {len(vectors)} normals")
+            check(library.dif_mesh_set_normals(self._handle.pointer, address_of(vectors)))
+        if edge_ids is not None:
+            ids = np.require(edge_ids, np.uint64, ["A", "C"])
+            if ids.shape != (len(positions),):
+                raise ValueError(f"{len(positions)} points, but edge_ids of shape {ids.shape}")
+            check(library.dif_mesh_set_edge_ids(self._handle.pointer, address_of(ids)))
+
+    @classmethod
+    def _from_handle(cls, handle: Handle) -> Mesh:
+        mesh = cls.__new__(cls)
+        mesh._handle = handle
+        return mesh
+
+    def _borrow(self, getter: Any, columns: tuple[int, ...], dtype: str) -> npt.NDArray[Any]:
+        pointer, count = c_void_p(), c_int64()
+        check(getter(self._handle.pointer, byref(pointer), byref(count)))
+        return from_address(pointer.value, (count.value, *columns), dtype, owner=self._handle)
+
+    @property
+    def points(self) -> npt.NDArray[np.float64]:
+        """Coordinates of the vertices, (n, 3)."""
+        return self._borrow(library.dif_mesh_positions, (3,), "f8")
+
+    @property
+    def faces(self) -> npt.NDArray[np.uint32]:
+        """Indices of the triangles' vertices, (m, 3), from 0."""
+        return self._borrow(library.dif_mesh_triangles, (3,), "u4")
+
+    @property
+    def normals(self) -> Optional[npt.NDArray[np.float64]]:
+        """Unit vectors at the vertices, out of the material, (n, 3); None if the mesh has none: see
+        `vertex_normals` of reconstruct()."""
+        array = self._borrow(library.dif_mesh_normals, (3,), "f8")
+        return array if len(array) else None
+
+    @property
+    def edge_ids(self) -> Optional[npt.NDArray[np.uint64]]:
+        """Names of the edges of the grid of cell centres that the vertices lie on, ascending, (n,);
+        None if the mesh has none: see `edge_ids` of reconstruct()."""
+        array = self._borrow(library.dif_mesh_edge_ids, (), "u8")
+        return array if len(array) else None
+
+    @property
+    def report(self) -> Optional[Report]:
+        """Facts about the reconstruction; None if another function made the mesh."""
+        report = DifReport()
+        status = library.dif_mesh_report(self._handle.pointer, byref(report))
+        return to_dataclass(Report, report) if status == 0 else None
+
+    def measure(self) -> Measure:
+        """Counts, area, volume, box, and whether the mesh is closed and manifold."""
+        measure = DifMeasure()
+        check(library.dif_mesh_measure(self._handle.pointer, byref(measure)))
+        result: Measure = to_dataclass(Measure, measure)
+        return result
+
+    def save(
+        self,
+        path: Path,
+        *,
+        format: Optional[str] = None,
+        normals: bool = True,
+        edge_ids: bool = True,
+    ) -> None:
+        """Writes .ply (float64), .obj, .off, .stl (float32), or what else the library can.
+
+        That may be .glb, .gltf and .drc; difmesh/io/mesh_file.hpp says what each keeps. The
+        extension tells, unless `format` does: "ply", "obj", "off" or "stl". Normals and names of
+        edges are written where the mesh and the format have them, unless switched off. The file
+        appears when it is complete; on an error nothing is left behind.
+        """
+        options = defaults(DifMeshWriteOptions, "dif_mesh_write_options_init")
+        options.format = choice(format, _FORMATS, "format") if format is not None else 0
+        options.normals = bool(normals)
+        options.edge_ids = bool(edge_ids)
+        check(library.dif_mesh_write(self._handle.pointer, path_bytes(path), byref(options)))
+
+    def __repr__(self) -> str:
+        return f"Mesh({len(self.points)} points, {len(self.faces)} faces)"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Mesh, (self.points, self.faces, self.normals, self.edge_ids)
+
+
+def read_mesh(path: Path) -> Mesh:
+    """Reads what Mesh.save() writes, told by the extension."""
+    handle = new_mesh_handle()
+    check(library.dif_mesh_read(path_bytes(path), byref(handle.pointer)))
+    return Mesh._from_handle(handle)
+

@@ -1,0 +1,51 @@
+"""Options that several functions share."""
+
+from __future__ import annotations
+
+import operator
+from typing import Any, Sequence
+
+from ._calls import Relay
+from ._library import defaults
+from ._structs import DifOptions
+
+_PLACEMENTS = {"midpoint": 1, "linear": 2, "manson": 3, "plic": 4}
+_NORMALS = {"youngs": 1, "myc": 2, "height_function": 3}
+_SIDES = {"open": 1, "mirror": 2, "periodic": 3, "empty": 4, "full": 5}
+
+
+def to_options(relay: Relay, sides: str | Sequence[str], **given: Any) -> DifOptions:
+    """The library's options; None leaves the default."""
+    options = defaults(DifOptions, "dif_options_init")
+    options.progress = relay.progress
+    six = (sides,) * 6 if isinstance(sides, str) else tuple(sides)
+    if len(six) != 6:
+        raise ValueError(f"sides are {sides!r}; one name or six are needed, from x low to z high")
+    options.sides = tuple(choice(side, _SIDES, "a side") for side in six)
+    for name, value in given.items():
+        if name == "placement":
+            options.placement = choice(value, _PLACEMENTS, name)
+        elif name == "normals":
+            options.normals = choice(value, _NORMALS, name)
+        elif name == "threads":
+            options.threads = int32(value, name)
+        elif value is not None:
+            setattr(options, name, value)
+    return options
+
+
+def choice(name: str, names: dict[str, int], what: str) -> int:
+    """The constant of a name."""
+    try:
+        return names[name]
+    except (KeyError, TypeError):
+        known = ", ".join(repr(known) for known in names)
+        raise ValueError(f"{what} is {name!r}; {known} are possible") from None
+
+
+def int32(value: int, name: str) -> int:
+    """ctypes would cut off the upper bits."""
+    number = operator.index(value)
+    if not -(2**31) <= number < 2**31:
+        raise ValueError(f"{name} is {number}, which is beyond any range")
+    return number

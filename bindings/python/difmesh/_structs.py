@@ -1,0 +1,284 @@
+"""The structs of difmesh.h, field by field in its order; see there for what they mean."""
+
+from __future__ import annotations
+
+from ctypes import (
+    CFUNCTYPE,
+    Structure,
+    c_double,
+    c_int32,
+    c_int64,
+    c_uint64,
+    c_void_p,
+    sizeof,
+)
+from typing import Any
+
+PROGRESS = CFUNCTYPE(c_int32, c_void_p, c_double)
+NO_PROGRESS = PROGRESS(0)
+#: dif_function and dif_gradient alike
+FUNCTION = CFUNCTYPE(c_int32, c_void_p, c_int64, c_void_p, c_void_p)
+
+FLOAT32, FLOAT64, UINT8, UINT16 = 1, 2, 3, 4
+
+
+class Sized(Structure):
+    """A struct that begins with its size, which it sets itself."""
+
+    def __init__(self, **fields: Any) -> None:
+        super().__init__(struct_size=sizeof(type(self)), **fields)
+
+
+class DifField(Sized):
+    _fields_ = [
+        ("struct_size", c_uint64),
+        ("data", c_void_p),
+        ("type", c_int32),
+        ("reserved", c_int32),
+        ("dims", c_int64 * 3),
+        ("strides", c_int64 * 3),
+        ("origin", c_double * 3),
+        ("spacing", c_double * 3),
+    ]
+
+
+class DifOptions(Sized):
+    _fields_ = [
+        ("struct_size", c_uint64),
+        ("placement", c_int32),
+        ("normals", c_int32),
+        ("sides", c_int32 * 6),
+        ("vertex_normals", c_int32),
+        ("edge_ids", c_int32),
+        ("purity_tolerance", c_double),
+        ("overshoot_bound", c_double),
+        ("clearance", c_double),
+        ("threads", c_int32),
+        ("reserved", c_int32),
+        ("progress", PROGRESS),
+        ("progress_user", c_void_p),
+    ]
+
+
+class DifReport(Sized):
+    _fields_ = [
+        ("struct_size", c_uint64),
+        ("cells", c_int64),
+        ("interfacial_cells", c_int64),
+        ("clamped_cells", c_int64),
+        ("largest_overshoot", c_double),
+        ("fraction_volume", c_double),
+        ("planes", c_int64),
+        ("height_function_cells", c_int64),
+        ("gradient_free_cells", c_int64),
+        ("solved_edges", c_int64),
+        ("newton_steps_mean", c_double),
+        ("newton_steps_max", c_int64),
+        ("non_monotone_edges", c_int64),
+        ("enclosed_volume", c_double),
+        ("closed", c_int32),
+        ("reserved", c_int32),
+        ("seconds_classify", c_double),
+        ("seconds_normals", c_double),
+        ("seconds_count", c_double),
+        ("seconds_vertices", c_double),
+        ("seconds_triangles", c_double),
+        ("seconds_total", c_double),
+    ]
+
+
+class DifPlaneArrays(Sized):
+    _fields_ = [
+        ("struct_size", c_uint64),
+        ("normal_x", c_void_p),
+        ("normal_y", c_void_p),
+        ("normal_z", c_void_p),
+        ("offset", c_void_p),
+        ("source", c_void_p),
+        ("strides", c_int64 * 3),
+    ]
+
+
+class DifGrid(Sized):
+    _fields_ = [
+        ("struct_size", c_uint64),
+        ("dims", c_int64 * 3),
+        ("origin", c_double * 3),
+        ("spacing", c_double * 3),
+    ]
+
+
+class DifFunctionOptions(Sized):
+    _fields_ = [
+        ("struct_size", c_uint64),
+        ("tolerance", c_double),
+        ("kink_tolerance", c_double),
+        ("max_calls_per_cell", c_int64),
+        ("gradient", FUNCTION),
+        ("gradient_user", c_void_p),
+        ("threads", c_int32),
+        ("reserved", c_int32),
+        ("progress", PROGRESS),
+        ("progress_user", c_void_p),
+    ]
+
+
+class DifFunctionReport(Sized):
+    _fields_ = [
+        ("struct_size", c_uint64),
+        ("interfacial_cells", c_int64),
+        ("sampled_cells", c_int64),
+        ("subdivided_cells", c_int64),
+        ("unresolved_cells", c_int64),
+        ("largest_error_estimate", c_double),
+        ("function_calls", c_int64),
+        ("lattice_calls", c_int64),
+        ("gradient_calls", c_int64),
+        ("fraction_volume", c_double),
+        ("seconds", c_double),
+    ]
+
+
+class DifTriangleOptions(Sized):
+    _fields_ = [
+        ("struct_size", c_uint64),
+        ("tolerance", c_double),
+        ("flip", c_int32),
+        ("check_edges", c_int32),
+        ("threads", c_int32),
+        ("reserved", c_int32),
+        ("progress", PROGRESS),
+        ("progress_user", c_void_p),
+    ]
+
+
+class DifTriangleReport(Sized):
+    _fields_ = [
+        ("struct_size", c_uint64),
+        ("pieces", c_int64),
+        ("cells_touched", c_int64),
+        ("lowest_raw", c_double),
+        ("highest_raw", c_double),
+        ("largest_gap", c_double),
+        ("fraction_volume", c_double),
+        ("mesh_volume", c_double),
+        ("seconds", c_double),
+    ]
+
+
+class DifShapeOptions(Sized):
+    _fields_ = [
+        ("struct_size", c_uint64),
+        ("kind", c_int32),
+        ("reserved", c_int32),
+        ("centre", c_double * 3),
+        ("rotation_degrees", c_double * 3),
+        ("radius", c_double),
+        ("tube_radius", c_double),
+        ("semi_axes", c_double * 3),
+        ("exponent", c_double),
+        ("scale", c_double),
+        ("dimples", c_int64),
+        ("dimple_radius", c_double),
+        ("dimple_depth", c_double),
+    ]
+
+
+class DifMeasure(Sized):
+    _fields_ = [
+        ("struct_size", c_uint64),
+        ("vertices", c_int64),
+        ("edges", c_int64),
+        ("triangles", c_int64),
+        ("components", c_int64),
+        ("isolated_vertices", c_int64),
+        ("boundary_edges", c_int64),
+        ("non_manifold_edges", c_int64),
+        ("misoriented_edges", c_int64),
+        ("non_manifold_vertices", c_int64),
+        ("degenerate_triangles", c_int64),
+        ("euler_number", c_int64),
+        ("closed", c_int32),
+        ("manifold", c_int32),
+        ("area", c_double),
+        ("volume", c_double),
+        ("low", c_double * 3),
+        ("high", c_double * 3),
+    ]
+
+
+class DifDistanceOptions(Sized):
+    _fields_ = [
+        ("struct_size", c_uint64),
+        ("facet_spacing", c_double),
+        ("with_sign", c_int32),
+        ("threads", c_int32),
+        ("progress", PROGRESS),
+        ("progress_user", c_void_p),
+    ]
+
+
+class DifStatistics(Structure):
+    _fields_ = [
+        ("points", c_int64),
+        ("rms", c_double),
+        ("mean", c_double),
+        ("signed_mean", c_double),
+        ("lowest", c_double),
+        ("highest", c_double),
+        ("maximum", c_double),
+        ("maximum_index", c_int64),
+        ("maximum_position", c_double * 3),
+    ]
+
+
+class DifDistance(Sized):
+    _fields_ = [
+        ("struct_size", c_uint64),
+        ("vertices", DifStatistics),
+        ("facets", DifStatistics),
+        ("area", c_double),
+        ("reach", c_double),
+        ("has_sign", c_int32),
+        ("reserved", c_int32),
+    ]
+
+
+class DifMeshWriteOptions(Sized):
+    _fields_ = [
+        ("struct_size", c_uint64),
+        ("format", c_int32),
+        ("normals", c_int32),
+        ("edge_ids", c_int32),
+        ("reserved", c_int32),
+    ]
+
+
+class DifRawLayout(Sized):
+    _fields_ = [
+        ("struct_size", c_uint64),
+        ("dims", c_int64 * 3),
+        ("type", c_int32),
+        ("big_endian", c_int32),
+        ("offset", c_int64),
+    ]
+
+
+class DifFieldWriteOptions(Sized):
+    _fields_ = [
+        ("struct_size", c_uint64),
+        ("format", c_int32),
+        ("type", c_int32),
+        ("gzip", c_int32),
+        ("gzip_level", c_int32),
+    ]
+
+
+class DifBlock(Sized):
+    _fields_ = [
+        ("struct_size", c_uint64),
+        ("offset", c_int64 * 3),
+        ("dims", c_int64 * 3),
+        ("ghost_low", c_int64 * 3),
+        ("ghost_high", c_int64 * 3),
+    ]

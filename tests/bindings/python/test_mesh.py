@@ -1,0 +1,291 @@
+"""Meshes: from fields, from arrays, from and to files; measures and distances of them."""
+
+import copy
+import math
+import os
+import pickle
+import tempfile
+import unittest
+
+import numpy as np
+from support import ball_distance, same_bits, smooth_ball
+
+import difmesh
+
+CUBE = (
+    [[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)],
+    [[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4], [2, 6, 3], [3, 6, 7],
+     [0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5]],
+)  # fmt: skip
+
+
+class Reconstruct(unittest.TestCase):
+    def test_a_ball(self):
+        shape = difmesh.Shape("sphere", radius=11.2, centre=(16.1, 15.8, 16.3))
+        field = difmesh.sample_shape(shape, 32)
+        mesh = difmesh.reconstruct(field, vertex_normals=True, edge_ids=True)
+        radii = np.linalg.norm(mesh.points - (16.1, 15.8, 16.3), axis=1)
+        self.assertLess(np.abs(radii - 11.2).max(), 0.016)  # table of the README, 8 to 16 cells
+        outwards = (mesh.points - (16.1, 15.8, 16.3)) / radii[:, None]
+        self.assertGreater((mesh.normals * outwards).sum(axis=1).min(), 0.99)
+        np.testing.assert_allclose(np.linalg.norm(mesh.normals, axis=1), 1, atol=1e-12)
+        self.assertTrue((np.diff(mesh.edge_ids.astype(np.int64)) > 0).all())
+        # Every vertex lies on the edge that its name tells.
+        axis, code = mesh.edge_ids % 3, mesh.edge_ids // 3
+        lower = np.stack([code % 34, code // 34 % 34, code // 34**2], axis=1) - 0.5
+        along = mesh.points - lower
+        rows = np.arange(len(along))
+        self.assertTrue(((along[rows, axis] > 0) & (along[rows, axis] < 1)).all())
+        along[rows, axis] = 0
+        self.assertEqual(np.abs(along).max(), 0)
+        report = mesh.report
+        self.assertEqual(report.cells, 32**3)
+        self.assertIs(report.closed, True)
+        self.assertAlmostEqual(report.fraction_volume, 4 / 3 * math.pi * 11.2**3, places=6)
+        self.assertAlmostEqual(report.enclosed_volume, mesh.measure().volume, places=8)
+        self.assertEqual(repr(mesh), f"Mesh({len(mesh.points)} points, {len(mesh.faces)} faces)")
+
+    def test_options_reach_the_library(self):
+        field = smooth_ball()
+        plic = difmesh.reconstruct(field)
+        for options in (
+            {"placement": "linear"},
+            {"placement": "manson"},
+            {"placement": "midpoint"},
+            {"normals": "youngs"},
+            {"normals": "myc"},
+            {"purity_tolerance": 0.1},
+        ):
+            self.assertFalse(same_bits(difmesh.reconstruct(field, **options), plic), options)
+        for threads in (1, 2):
+            self.assertTrue(same_bits(difmesh.reconstruct(field, threads=threads), plic))
+        midpoint = difmesh.reconstruct(field, placement="midpoint").points
+        self.assertTrue((np.rint(2 * midpoint) == 2 * midpoint).all())
+        half = np.ones((6, 6, 6))
+        half[3:] = 0
+        self.assertFalse(difmesh.reconstruct(half).report.closed)
+        self.assertTrue(difmesh.reconstruct(half, sides="empty").report.closed)
+        # Full below, so the low sides close it except in z.
+        sides = ["empty", "empty", "empty", "empty", "mirror", "empty"]
+        mesh = difmesh.reconstruct(half, sides=sides)
+        self.assertGreater(mesh.measure().boundary_edges, 0)
+        self.assertEqual(mesh.points[:, 2].min(), 0)
+        over = np.zeros((4, 4, 4))
+        over[1, 1, 1] = 1.2
+        with self.assertRaisesRegex(difmesh.InvalidValueError, r"cell \(1, 1, 1\)"):
+            difmesh.reconstruct(over)
+        mesh = difmesh.reconstruct(over, overshoot_bound=0.5)
+        self.assertEqual(mesh.report.clamped_cells, 1)
+        self.assertAlmostEqual(mesh.report.largest_overshoot, 0.2)
+
+    def test_bad_options(self):
+        field = smooth_ball(6, 6, 6)
+        for options in (
+            {"placement": "best"},
+            {"normals": 3},
+            {"sides": "wall"},
+            {"sides": ["open"] * 5},
+            {"purity_tolerance": -1},
+            {"purity_tolerance": math.nan},
+            {"clearance": 1},
+            {"threads": -1},
+            {"threads": 2**32},
+        ):
+            with self.assertRaises(ValueError, msg=options):
+                difmesh.reconstruct(field, **options)
+        for options in ({"threads": 1.5}, {"purity_tolerance": "low"}):
+            with self.assertRaises(TypeError, msg=options):
+                difmesh.reconstruct(field, **options)
+
+    def test_blocks_weld_to_the_whole(self):
+        field = smooth_ball()
+        whole = difmesh.reconstruct(field, spacing=0.5, origin=(1, 2, 3), edge_ids=True)
+        dims = np.array(field.shape[::-1])
+        parts = []
+        for low, high in ((0, 11), (11, dims[2])):
+            offset, end = np.array([0, 0, low]), np.array([dims[0], dims[1], high])
+            ghost_low = np.minimum(offset, difmesh.GHOST_LAYERS)
+            ghost_high = np.minimum(dims - end, difmesh.GHOST_LAYERS)
+            cut = field[low - ghost_low[2] : high + ghost_high[2]]
+            parts.append(
+                difmesh.reconstruct_block(
+                    cut, grid_dims=dims, offset=offset, dims=end - offset, ghost_low=ghost_low,
+                    ghost_high=ghost_high, spacing=0.5, origin=(1, 2, 3),
+                )
+            )  # fmt: skip
+        self.assertTrue(all(len(part.faces) > 100 for part in parts))
+        welded = difmesh.weld(parts, dims, spacing=0.5, origin=(1, 2, 3))
+        self.assertTrue(same_bits(welded, whole))
+        with self.assertRaises(difmesh.InvalidArgumentError):
+            difmesh.weld([difmesh.Mesh(*CUBE)], dims, spacing=0.5, origin=(1, 2, 3))
+
+
+class Arrays(unittest.TestCase):
+    def test_a_cube(self):
+        points, faces = CUBE
+        mesh = difmesh.Mesh(points, faces)
+        np.testing.assert_array_equal(mesh.points, points)
+        np.testing.assert_array_equal(mesh.faces, faces)
+        self.assertIsNone(mesh.normals)
+        self.assertIsNone(mesh.report)
+        measure = mesh.measure()
+        self.assertEqual(
+            (measure.vertices, measure.edges, measure.triangles, measure.euler_number),
+            (8, 18, 12, 2),
+        )
+        self.assertIs(measure.closed, True)
+        self.assertIs(measure.manifold, True)
+        self.assertEqual((measure.area, measure.volume), (6, 1))
+        self.assertEqual((measure.low, measure.high), ((0, 0, 0), (1, 1, 1)))
+
+    def test_any_layout_is_copied(self):
+        points, faces = map(np.array, CUBE)
+        wide = np.zeros((8, 6), np.float32)
+        wide[:, 1:6:2] = points
+        for corners in (faces.astype(np.uint8), np.asfortranarray(faces), faces[:, ::-1][:, ::-1]):
+            mesh = difmesh.Mesh(wide[:, 1:6:2], corners)
+            np.testing.assert_array_equal(mesh.points, points)
+            np.testing.assert_array_equal(mesh.faces, faces)
+        wide[:] = 7
+        np.testing.assert_array_equal(mesh.points, points)
+
+    def test_normals_and_edge_ids(self):
+        points, faces = CUBE
+        mesh = difmesh.Mesh(points, faces, np.array(points) - 0.5, range(8))
+        np.testing.assert_array_equal(mesh.normals, np.array(points) - 0.5)
+        np.testing.assert_array_equal(mesh.edge_ids, range(8))
+
+    def test_no_mesh(self):
+        mesh = difmesh.Mesh(np.empty((0, 3)), [])
+        self.assertEqual(len(mesh.faces), 0)
+
+    def test_bad_arrays(self):
+        points, faces = CUBE
+        for bad, exception in (
+            ((points, [[0, 1, 8]]), difmesh.InvalidArgumentError),
+            ((points, [[0, 1, -1]]), ValueError),
+            ((points, [[0, 1, 2**32]]), ValueError),
+            ((points, [[0, 1, 2.0]]), TypeError),
+            ((points, [0, 1, 2]), ValueError),
+            ((np.zeros((8, 2)), faces), ValueError),
+            ((points, faces, points[:7]), ValueError),
+            ((points, faces, None, range(7)), ValueError),
+            ((["a"], faces), ValueError),
+        ):
+            with self.assertRaises(exception, msg=bad):
+                difmesh.Mesh(*bad)
+
+    def test_copies_and_pickles(self):
+        mesh = difmesh.reconstruct(smooth_ball(), vertex_normals=True)
+        for again in (copy.copy(mesh), copy.deepcopy(mesh), pickle.loads(pickle.dumps(mesh))):
+            self.assertTrue(same_bits(mesh, again))
+            np.testing.assert_array_equal(mesh.normals, again.normals)
+            self.assertFalse(np.shares_memory(mesh.points, again.points))
+        with self.assertRaises(TypeError):
+            pickle.dumps(difmesh.Shape())
+
+
+class Distances(unittest.TestCase):
+    @unittest.skipUnless(difmesh.has("distance"), "the library was built without distances")
+    def test_of_a_larger_ball(self):
+        shape = difmesh.Shape("sphere", radius=6.5, centre=(12.3, 9.1, 10.4))
+        mesh = difmesh.reconstruct(smooth_ball())
+        expected = ball_distance(mesh.points, radius=6.5)
+        for reference in (shape, lambda points: ball_distance(points, radius=6.5), shape.distances):
+            vertices = difmesh.distance(mesh, reference).vertices
+            self.assertEqual(vertices.points, len(mesh.points))
+            self.assertAlmostEqual(vertices.signed_mean, expected.mean(), places=12)
+            self.assertAlmostEqual(vertices.highest, expected.max(), places=12)
+            self.assertEqual(vertices.maximum_index, np.abs(expected).argmax())
+            self.assertEqual(
+                vertices.maximum_position, tuple(mesh.points[vertices.maximum_index])
+            )
+        shifted = difmesh.Mesh(mesh.points + (3.0, 0, 0), mesh.faces)
+        there, back = difmesh.distance_both_ways(mesh, shifted)
+        self.assertIs(there.has_sign, True)
+        self.assertGreater(there.vertices.highest, 2)
+        self.assertLessEqual(there.vertices.maximum, 3 + 1e-12)
+        self.assertAlmostEqual(there.area, back.area, places=9)
+        self.assertEqual(difmesh.distance(mesh, shifted).vertices, there.vertices)
+        unsigned = difmesh.distance(mesh, shifted, with_sign=False)
+        self.assertIs(unsigned.has_sign, False)
+        self.assertGreaterEqual(unsigned.vertices.lowest, 0)
+
+    @unittest.skipUnless(difmesh.has("distance"), "the library was built without distances")
+    def test_bad_arguments(self):
+        mesh = difmesh.Mesh(*CUBE)
+        for mesh_, reference, exception in (
+            (mesh, 3, TypeError),
+            (CUBE, mesh, TypeError),
+            (difmesh.Mesh(np.empty((0, 3)), []), mesh, difmesh.InvalidArgumentError),
+            (mesh, lambda points: points[:, 0] * np.nan, difmesh.InvalidValueError),
+            (mesh, lambda points: {}[0], KeyError),
+        ):
+            with self.assertRaises(exception):
+                difmesh.distance(mesh_, reference)
+
+
+@unittest.skipUnless(difmesh.has("files"), "the library was built without files")
+class Files(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def test_formats(self):
+        mesh = difmesh.reconstruct(smooth_ball(), vertex_normals=True, edge_ids=True)
+        for extension, digits in (("ply", 17), ("obj", 9), ("off", 9)):
+            mesh.save(self.path(f"ball.{extension}"))
+            again = difmesh.read_mesh(self.path(f"ball.{extension}"))
+            np.testing.assert_allclose(again.points, mesh.points, rtol=10.0**-digits, atol=0)
+            np.testing.assert_array_equal(again.faces, mesh.faces)
+        mesh.save(self.path("ball.stl").encode())
+        with open(self.path("ball.stl"), "rb") as file:
+            self.assertEqual(len(file.read()), 84 + 50 * len(mesh.faces))
+        mesh.save(self.path("ball.soap"), format="ply", normals=False, edge_ids=False)
+        difmesh.reconstruct(smooth_ball()).save(self.path("plain.ply"))
+        with open(self.path("ball.soap"), "rb") as one, open(self.path("plain.ply"), "rb") as two:
+            self.assertEqual(one.read(), two.read())
+
+    def test_gltf(self):
+        """float32 about the mesh's centre."""
+        mesh = difmesh.reconstruct(smooth_ball())
+        try:
+            mesh.save(self.path("ball.glb"))
+        except difmesh.Error as error:
+            if "built without glTF" not in str(error):
+                raise
+            self.skipTest(f"skipped: {error}")
+        with open(self.path("ball.glb"), "rb") as file:
+            self.assertEqual(file.read(4), b"glTF")
+        again = difmesh.read_mesh(self.path("ball.glb"))
+        np.testing.assert_allclose(again.points, mesh.points, rtol=0, atol=1e-6)
+        np.testing.assert_array_equal(again.faces, mesh.faces)
+
+    def test_what_fails(self):
+        mesh = difmesh.Mesh(*CUBE)
+        for path, exception in (
+            ("cube.soap", difmesh.InvalidArgumentError),
+            ("no/such/folder.ply", difmesh.FileWriteError),
+            ("zero\0.ply", ValueError),
+        ):
+            with self.assertRaises(exception):
+                mesh.save(self.path(path))
+        with self.assertRaises(ValueError):
+            mesh.save(self.path("cube.ply"), format="plyy")
+        self.assertEqual(os.listdir(self.folder), [])
+        with self.assertRaises(OSError) as caught:
+            difmesh.read_mesh(self.path("none.ply"))
+        self.assertIsInstance(caught.exception, difmesh.FileMissingError)
+        self.assertIn("none.ply", str(caught.exception))
+        with open(self.path("bad.ply"), "w") as file:
+            file.write("ply\nformat soap 1.0\n")
+        with self.assertRaises(difmesh.FileFormatError):
+            difmesh.read_mesh(self.path("bad.ply"))
+
+
+if __name__ == "__main__":
+    unittest.main()
