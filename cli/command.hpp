@@ -15,5 +15,7 @@ void add_compare_command(CLI::App& program);
 void add_info_command(CLI::App& program);
 void add_reconstruct_command(CLI::App& program);
 void add_sample_command(CLI::App& program);
+/// Only where the page was built: with glTF and what npm gives.
+void add_view_command(CLI::App& program);
 
 }  // namespace difmesh::cli

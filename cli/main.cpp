@@ -71,6 +71,9 @@ int run(int argc, char** argv) {
 #ifdef DIFMESH_WITH_METRICS
   cli::add_compare_command(program);
 #endif
+#ifdef DIFMESH_WITH_VIEW
+  cli::add_view_command(program);
+#endif
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help) {

@@ -140,4 +140,16 @@ Sides parse_sides(const std::string& option, std::string_view text) {
   return sides;
 }
 
+std::array<double, 2> parse_range(const std::string& option, const std::string& text) {
+  const std::vector<std::string_view> words = split_at_commas(text);
+  if (words.size() != 2) {
+    throw CLI::ValidationError(option, "'" + text + "' is not two numbers with a comma between");
+  }
+  const std::array<double, 2> range{parse_number(option, words[0]), parse_number(option, words[1])};
+  if (range[0] > range[1]) {
+    throw CLI::ValidationError(option, "'" + text + "' has its larger number first");
+  }
+  return range;
+}
+
 }  // namespace difmesh::cli

@@ -31,6 +31,8 @@ void add_threads_option(CLI::App& command, const std::string& result, int& threa
 [[nodiscard]] Vec3 parse_vector(const std::string& option, std::string_view text);
 /// The same, each > 0.
 [[nodiscard]] Vec3 parse_spacing(const std::string& option, std::string_view text);
+/// Two numbers with a comma between, the smaller first.
+[[nodiscard]] std::array<double, 2> parse_range(const std::string& option, const std::string& text);
 /// Three counts of cells, each >= 1.
 [[nodiscard]] Index3 parse_dims(const std::string& option, std::string_view text);
 /// One name for all sides, or six: xlo,xhi,ylo,yhi,zlo,zhi. Periodic sides come in pairs.

@@ -30,6 +30,10 @@ std::vector<char> encode_glb(const Mesh&, const WriteGltfOptions&, GltfReport*) 
   throw Error(ErrorCode::invalid_argument, kMatter);
 }
 
+std::string encode_glb_base64(const Mesh&, const WriteGltfOptions&) {
+  throw Error(ErrorCode::invalid_argument, kMatter);
+}
+
 ScalarMesh read_gltf(const std::filesystem::path& path) {
   throw Error(ErrorCode::file_format, detail::quoted(path) + ": " + kMatter);
 }

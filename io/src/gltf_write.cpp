@@ -186,4 +186,11 @@ std::vector<char> encode_glb(const Mesh& mesh, const WriteGltfOptions& options,
   return bytes;
 }
 
+std::string encode_glb_base64(const Mesh& mesh, const WriteGltfOptions& options) {
+  const std::vector<char> bytes = encode_glb(mesh, options);
+  detail::Base64Encoder base64("", bytes.size());
+  base64.add(bytes.data(), bytes.size());
+  return base64.finish();
+}
+
 }  // namespace difmesh

@@ -83,6 +83,9 @@ GltfReport write_gltf(const std::filesystem::path& path, const Mesh& mesh,
 [[nodiscard]] std::vector<char> encode_glb(const Mesh& mesh, const WriteGltfOptions& options = {},
                                            GltfReport* report = nullptr);
 
+/// The same in base64, for web pages.
+[[nodiscard]] std::string encode_glb_base64(const Mesh& mesh, const WriteGltfOptions& options = {});
+
 /// Reads the surfaces of a .glb or .gltf file: the triangles, strips and fans of its default scene,
 /// plain or compressed by Draco, moved to where their nodes put them and joined to one mesh in the
 /// order of the scene. Points and lines, materials, textures, animations, skins and morph targets

@@ -1,0 +1,267 @@
+// difmesh view: a page that shows one surface or two.
+
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "command.hpp"
+#include "difmesh/error.hpp"
+#include "difmesh/io/gltf_file.hpp"
+#include "difmesh/io/mesh_file.hpp"
+#include "difmesh/reconstruct.hpp"
+#include "field_input.hpp"
+#include "json.hpp"
+#include "long_call.hpp"
+#include "mesh_scalars.hpp"
+#include "names.hpp"
+#include "output_file.hpp"
+#include "parse.hpp"
+#include "text.hpp"
+#include "view_page.hpp"
+
+namespace difmesh::cli {
+namespace {
+
+constexpr const char* kDescription =
+    "Makes a page that shows a surface in any browser.\n"
+    "\n"
+    "The page is one file with all that it needs; nothing is fetched when it is opened. It turns "
+    "and\n"
+    "zooms, shows wireframes, and colours by numbers per vertex: those in the file and x, y, z "
+    "and\n"
+    "angle. Two surfaces are shown side by side or in turn. A field is reconstructed: linear and "
+    "plic.\n";
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  difmesh view drops.nrrd -o drops.html                     linear against plic\n"
+    "  difmesh view bunny.glb -o bunny.html --color-by angle\n"
+    "  difmesh view part.stl part_again.ply -o both.html --up z\n";
+
+struct Request {
+  FieldInput input;
+  std::string second_path;
+  std::string page_path;
+  std::string color_by;
+  ColourMap color_map = ColourMap::viridis;
+  std::optional<std::array<double, 2>> color_range;
+  UpAxis up = UpAxis::y;
+  bool quiet = false;
+};
+
+struct Shown {
+  std::string name;
+  ScalarMesh surface;
+};
+
+std::string file_name(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
+}
+
+bool is_field(const FieldInput& input) {
+  return input.is_raw() || has_extension(input.path, kFieldExtensions);
+}
+
+Shown reconstructed(const LoadedField& field, const std::string& path, Placement placement,
+                    const std::string& name, bool quiet) {
+  LongCall long_call("reconstructing", quiet);
+  Options options;
+  options.placement = placement;
+  options.vertex_normals = true;
+  options.progress = long_call.progress();
+  try {
+    Shown shown{name, {reconstruct(field.file.view(), field.grid, options).mesh, {}}};
+    long_call.done();
+    return shown;
+  } catch (const Error& error) {
+    throw Error(error.code(), "'" + path + "': " + error.what());
+  }
+}
+
+ScalarMesh read_surface(const std::string& path) {
+  if (has_extension(path, kGltfExtensions)) {
+    return read_gltf(path);
+  }
+  if (has_extension(path, kDracoExtensions)) {
+    return read_drc(path);
+  }
+  if (!has_extension(path, kMeshExtensions)) {
+    throw Error(ErrorCode::file_format, "'" + path + "': unknown extension; meshes are " +
+                                            joined(kMeshExtensions) + ", fields " +
+                                            joined(kFieldExtensions));
+  }
+  return {read_mesh(path), {}};
+}
+
+/// A field alone gives two surfaces; beside another input it gives one.
+void load(const Request& request, const FieldInput& input, bool alone, std::vector<Shown>& shown) {
+  const std::string name = file_name(input.path);
+  if (!is_field(input)) {
+    shown.push_back({name, read_surface(input.path)});
+    return;
+  }
+  const LoadedField field = load_field(input);
+  if (alone) {
+    shown.push_back(reconstructed(field, input.path, Placement::linear, "linear", request.quiet));
+  }
+  shown.push_back(
+      reconstructed(field, input.path, Placement::plic, alone ? "plic" : name, request.quiet));
+}
+
+std::vector<Shown> load_all(const Request& request) {
+  std::vector<Shown> shown;
+  load(request, request.input, request.second_path.empty(), shown);
+  if (!request.second_path.empty()) {
+    FieldInput second;
+    second.path = request.second_path;
+    load(request, second, false, shown);
+  }
+  for (const Shown& one : shown) {
+    if (one.surface.mesh.triangles.empty()) {
+      throw Error(ErrorCode::invalid_value, "'" + one.name + "': the surface is empty");
+    }
+  }
+  return shown;
+}
+
+/// All scalars that there are, those of the file first.
+std::vector<VertexScalars> all_scalars(const ScalarMesh& surface) {
+  std::vector<VertexScalars> all = surface.scalars;
+  for (const ScalarKind& kind : scalar_kinds()) {
+    bool is_taken = false;
+    for (const VertexScalars& scalars : all) {
+      is_taken = is_taken || scalars.name == kind.name;
+    }
+    if (!is_taken) {
+      all.push_back({std::string(kind.name), kind.of(surface.mesh)});
+    }
+  }
+  return all;
+}
+
+std::vector<std::array<int, 3>> colour_table(ColourMap map) {
+  std::vector<std::array<int, 3>> table;
+  for (int i = 0; i < 256; ++i) {
+    const Colour colour = colour_of(map, i / 255.0);
+    table.push_back({static_cast<int>(std::lround(255.0 * colour[0])),
+                     static_cast<int>(std::lround(255.0 * colour[1])),
+                     static_cast<int>(std::lround(255.0 * colour[2]))});
+  }
+  return table;
+}
+
+Json scene_json(const Request& request, const std::vector<Shown>& shown) {
+  Json scene;
+  scene["title"] = file_name(request.input.path) +
+                   (request.second_path.empty() ? "" : ", " + file_name(request.second_path));
+  scene["surfaces"] = Json::array();
+  for (const Shown& one : shown) {
+    if (!request.color_by.empty()) {
+      (void)scalars_of("--color-by", request.color_by, one.surface);
+    }
+    WriteGltfOptions options;
+    options.edge_ids = false;
+    options.scalars = all_scalars(one.surface);
+    options.up = request.up;
+    options.name = one.name;
+    scene["surfaces"].push_back(
+        {{"name", one.name}, {"glb", encode_glb_base64(one.surface.mesh, options)}});
+  }
+  scene["colours"] = colour_table(request.color_map);
+  scene["diverging"] = request.color_map == ColourMap::cool_warm;
+  scene["colorBy"] = request.color_by;
+  if (request.color_range) {
+    scene["range"] = *request.color_range;
+  }
+  return scene;
+}
+
+/// As text within HTML: a script element ends at the first "</script".
+std::string without_tags(std::string json) {
+  for (std::size_t at = json.find('<'); at != std::string::npos; at = json.find('<', at)) {
+    json.replace(at, 1, "\\u003c");
+  }
+  return json;
+}
+
+void run(const Request& request) {
+  check_output("--output", request.page_path, request.input.path);
+  if (!request.second_path.empty()) {
+    check_output("--output", request.page_path, request.second_path);
+  }
+  const std::vector<Shown> shown = load_all(request);
+  const Json scene = scene_json(request, shown);
+  std::string page(kPageBeforeScene);
+  page += without_tags(scene.dump(-1, ' ', false, Json::error_handler_t::replace));
+  page += kPageAfterScene;
+  const std::size_t bytes = page.size();
+  OutputFile(request.page_path, std::move(page)).commit();
+  if (request.quiet) {
+    return;
+  }
+  print_fact(std::cout, "page", request.page_path);
+  for (const Shown& one : shown) {
+    print_fact(
+        std::cout, "surface",
+        one.name + ", " +
+            count_of(static_cast<std::int64_t>(one.surface.mesh.triangles.size()), "triangle"));
+  }
+  print_fact(std::cout, "size", count_of(static_cast<std::int64_t>(bytes), "byte"));
+}
+
+void add_colour_options(CLI::App& command, Request& request) {
+  command
+      .add_option("--color-by", request.color_by,
+                  "Number per vertex to colour by at first; the page offers all")
+      ->option_text("NAME");
+  command
+      .add_option_function<std::string>(
+          "--color-map",
+          [&request](const std::string& text) {
+            request.color_map = parse_name("--color-map", text, kColourMaps);
+          },
+          "viridis (default), or cool_warm, which diverges from 0")
+      ->option_text("NAME");
+  command
+      .add_option_function<std::string>(
+          "--color-range",
+          [&request](const std::string& text) {
+            request.color_range = parse_range("--color-range", text);
+          },
+          "Numbers of the first and the last colour of --color-by")
+      ->option_text("LOW,HIGH");
+  command
+      .add_option_function<std::string>(
+          "--up",
+          [&request](const std::string& text) { request.up = parse_name("--up", text, kUpAxes); },
+          "The axis that points up: y (default) or z")
+      ->option_text("AXIS");
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& program) {
+  const auto request = std::make_shared<Request>();
+  CLI::App& command = *program.add_subcommand("view", kDescription);
+  command.footer(kFooter);
+  command
+      .add_option("MESH|FIELD", request->input.path,
+                  "Mesh (.ply, .obj, .off, .stl, .glb, .gltf, .drc) or field (.npy, .nrrd, .nhdr,\n"
+                  "raw)")
+      ->required();
+  command.add_option("SECOND", request->second_path, "Another mesh or field to show with it");
+  command.add_option("-o,--output", request->page_path, "Page to write (.html)")
+      ->required()
+      ->option_text("PAGE");
+  add_colour_options(command, *request);
+  command.add_flag("--quiet", request->quiet, "Print nothing but errors");
+  add_field_options(command, request->input);
+  command.callback([request] { run(*request); });
+}
+
+}  // namespace difmesh::cli
