@@ -119,7 +119,8 @@ TEST_CASE("reconstruct compresses with as many bits as asked or needed") {
 TEST_CASE("info and compare and sample read glb and drc") {
   const Place place;
   check_succeeds(place.reconstruct("m.ply", {}));
-  const std::string volume = fact(run_program({"info", place.path("m.ply")}).out, "enclosed volume");
+  const std::string volume =
+      fact(run_program({"info", place.path("m.ply")}).out, "enclosed volume");
   for (const std::string name : {"m.glb", "d.glb", "m.drc"}) {
     CAPTURE(name);
     check_succeeds(place.reconstruct(name, name == "d.glb" ? Words{"--draco"} : Words{}));
