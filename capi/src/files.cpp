@@ -30,6 +30,9 @@ static_assert(static_cast<int>(difmesh::MeshFormat::ply) + 1 == DIF_MESH_FORMAT_
               static_cast<int>(difmesh::MeshFormat::obj) + 1 == DIF_MESH_FORMAT_OBJ &&
               static_cast<int>(difmesh::MeshFormat::off) + 1 == DIF_MESH_FORMAT_OFF &&
               static_cast<int>(difmesh::MeshFormat::stl) + 1 == DIF_MESH_FORMAT_STL &&
+              static_cast<int>(difmesh::MeshFormat::glb) + 1 == DIF_MESH_FORMAT_GLB &&
+              static_cast<int>(difmesh::MeshFormat::gltf) + 1 == DIF_MESH_FORMAT_GLTF &&
+              static_cast<int>(difmesh::MeshFormat::drc) + 1 == DIF_MESH_FORMAT_DRC &&
               static_cast<int>(difmesh::FieldFormat::npy) + 1 == DIF_FIELD_FORMAT_NPY &&
               static_cast<int>(difmesh::FieldFormat::nrrd) + 1 == DIF_FIELD_FORMAT_NRRD);
 
@@ -39,7 +42,7 @@ difmesh::WriteMeshOptions to_options(const dif_mesh_write_options* options) {
   const dif_mesh_write_options given = capi::read_struct(options, defaults, "options");
   capi::require_zero(given.reserved, "options");
   difmesh::WriteMeshOptions result;
-  result.format = to_format(given.format, difmesh::MeshFormat::stl);
+  result.format = to_format(given.format, difmesh::MeshFormat::drc);
   result.normals = capi::to_bool(given.normals, "normals");
   result.edge_ids = capi::to_bool(given.edge_ids, "edge_ids");
   return result;

@@ -121,3 +121,28 @@ TEST_CASE("a long message ends with a whole character") {
   CHECK(message.size() > 1000);
   CHECK(message.back() == '\xA4');
 }
+
+TEST_CASE("surfaces go into glTF and Draco files and back") {
+  const TempFolder folder;
+  const auto mesh = c::c_reconstruct(c::c_field(c::blob({12, 11, 10})));
+  const difmesh::Mesh before = c::mesh_of(mesh.get());
+  for (const char* name : {"blob.glb", "blob.gltf", "blob.drc"}) {
+    const dif_status status = dif_mesh_write(mesh.get(), (folder / name).c_str(), nullptr);
+    if (status == DIF_ERROR_INVALID_ARGUMENT) {
+      MESSAGE("skipped: " << std::string(dif_last_message()));
+      continue;
+    }
+    REQUIRE(status == DIF_OK);
+    dif_mesh* read = nullptr;
+    REQUIRE(dif_mesh_read((folder / name).c_str(), &read) == DIF_OK);
+    const c::MeshHandle again(read);
+    dif_measure facts = c::prepared(dif_measure_init);
+    dif_measure expected = c::prepared(dif_measure_init);
+    REQUIRE(dif_mesh_measure(read, &facts) == DIF_OK);
+    REQUIRE(dif_mesh_measure(mesh.get(), &expected) == DIF_OK);
+    CHECK(facts.vertices == expected.vertices);
+    CHECK(facts.triangles == expected.triangles);
+    CHECK(facts.closed == 1);
+    CHECK(facts.volume == doctest::Approx(expected.volume).epsilon(1e-3));
+  }
+}

@@ -589,7 +589,10 @@ enum {
   DIF_MESH_FORMAT_PLY = 1, /* binary, float64 */
   DIF_MESH_FORMAT_OBJ = 2,
   DIF_MESH_FORMAT_OFF = 3,
-  DIF_MESH_FORMAT_STL = 4 /* binary, float32 */
+  DIF_MESH_FORMAT_STL = 4,  /* binary, float32 */
+  DIF_MESH_FORMAT_GLB = 5,  /* binary glTF, float32 about the centre */
+  DIF_MESH_FORMAT_GLTF = 6, /* the same as text */
+  DIF_MESH_FORMAT_DRC = 7   /* Draco: coordinates rounded to steps, the order changed */
 };
 
 typedef struct dif_mesh_write_options {
@@ -607,7 +610,7 @@ DIF_API dif_status dif_mesh_write_options_init(dif_mesh_write_options* options,
  * STRUCT, OUT_OF_MEMORY. Since 0.1. */
 DIF_API dif_status dif_mesh_write(const dif_mesh* mesh, const char* path,
                                   const dif_mesh_write_options* options);
-/* Reads .ply, .obj, .off or .stl, told by the extension.
+/* Reads .ply, .obj, .off, .stl, .glb, .gltf or .drc, told by the extension.
  * Errors: FILE_MISSING, FILE_FORMAT, TOO_LARGE, OUT_OF_MEMORY. Since 0.1. */
 DIF_API dif_status dif_mesh_read(const char* path, dif_mesh** mesh);
 
