@@ -16,7 +16,7 @@ packages=(
   libembree-dev                   # distances between surfaces
   doctest-dev                     # tests
   libcgal-dev libopenmesh-dev     # tests: independent checks of meshes
-  abigail-tools                   # tests: the C interface keeps its ABI
+  abigail-tools pkg-config        # tests: the C interface keeps its ABI and is found
   clang                           # tests: warnings in installed headers
   libeigen3-dev                   # examples with CGAL
   gfortran                        # the Fortran module

@@ -78,7 +78,10 @@ module difmesh_types
     dif_mesh_format_ply = 1, &
     dif_mesh_format_obj = 2, &
     dif_mesh_format_off = 3, &
-    dif_mesh_format_stl = 4
+    dif_mesh_format_stl = 4, &
+    dif_mesh_format_glb = 5, &
+    dif_mesh_format_gltf = 6, &
+    dif_mesh_format_drc = 7
 
   integer(c_int32_t), parameter, public :: &
     dif_field_format_by_extension = 0, &

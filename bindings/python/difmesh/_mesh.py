@@ -16,7 +16,7 @@ from ._memory import Path, address_of, from_address, path_bytes
 from ._options import choice
 from ._structs import DifMeasure, DifMeshWriteOptions, DifReport
 
-_FORMATS = {"ply": 1, "obj": 2, "off": 3, "stl": 4}
+_FORMATS = {"ply": 1, "obj": 2, "off": 3, "stl": 4, "glb": 5, "gltf": 6, "drc": 7}
 
 
 @dataclass(frozen=True)
@@ -201,12 +201,13 @@ class Mesh:
         normals: bool = True,
         edge_ids: bool = True,
     ) -> None:
-        """Writes .ply (float64), .obj, .off, .stl (float32), or what else the library can.
+        """Writes .ply (float64), .obj, .off, .stl, .glb, .gltf (float32) or .drc.
 
-        That may be .glb, .gltf and .drc; difmesh/io/mesh_file.hpp says what each keeps. The
-        extension tells, unless `format` does: "ply", "obj", "off" or "stl". Normals and names of
-        edges are written where the mesh and the format have them, unless switched off. The file
-        appears when it is complete; on an error nothing is left behind.
+        difmesh/io/mesh_file.hpp says what each keeps; a library without glTF or Draco refuses
+        these. The extension tells, unless `format` does: "ply", "obj", "off", "stl", "glb", "gltf"
+        or "drc". Normals and names of edges are written where the mesh and the format have them,
+        unless switched off. The file appears when it is complete; on an error nothing is left
+        behind.
         """
         options = defaults(DifMeshWriteOptions, "dif_mesh_write_options_init")
         options.format = choice(format, _FORMATS, "format") if format is not None else 0
