@@ -30,6 +30,16 @@ for placement in "${placements[@]}"; do
   "$difmesh" info "$out/drops_$placement.ply" --json "$out/drops_$placement.info.json"
 done
 
+"$difmesh" reconstruct "$field" -o "$out/drops_plic.glb" --color-by angle --quiet
+"$difmesh" reconstruct "$field" -o "$out/drops_plic_draco.glb" --color-by angle --draco --quiet
+page="$out/drops.html"
+if "$difmesh" view --help >/dev/null 2>&1; then
+  "$difmesh" view "$field" -o "$page" --color-by angle --quiet
+else
+  rm -f "$page"
+  echo "demo: no page: it needs node and npm when the program is built" >&2
+fi
+
 # value FILE SECTION KEY: a number or word of a report, which has one key per line.
 value() {
   sed -n "/\"$2\": {/,/}/ s/^ *\"$3\": \"\{0,1\}\([^\",]*\).*/\1/p" "$1"
@@ -69,11 +79,21 @@ cat <<END
   Both meshes have the same triangles; what differs is where their vertices are put. Roughness is the rms
   angle between neighbouring facets.
 
+Sizes in bytes:
+END
+for file in drops_plic.ply drops_plic.glb drops_plic_draco.glb drops.html; do
+  [ ! -e "$out/$file" ] || printf '  %-34s%14d\n' "$file" "$(stat -c %s "$out/$file")"
+done
+cat <<END
+
 Written to $(pwd)/$out:
   drops_linear.ply, drops_plic.ply    the meshes
+  drops_plic.glb                      for viewers, coloured by the angle between facets
+  drops_plic_draco.glb                the same, compressed
+  drops.html                          a page with both meshes, for any browser
   drops_*.json, drops_*.info.json     reports: the work, and the meshes measured
 Next:
-  look at the meshes                  in ParaView, MeshLab or Blender
+  look at the meshes                  open drops.html; or ParaView, MeshLab, Blender
   see all options                     $difmesh reconstruct --help
   try a field of your own             $difmesh info FIELD.npy
                                       $difmesh reconstruct FIELD.npy -o surface.ply --spacing 0.01

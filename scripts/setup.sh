@@ -2,6 +2,7 @@
 # Installs what difmesh needs on Debian 12: compilers, libraries, tools. Run by demo.sh and test.sh; does
 # nothing where all is there. Needs root or sudo.
 #   setup.sh            build, tests and demo
+#   setup.sh --browser  Chromium as well, in which tests open our pages
 #   setup.sh --bench    the benchmarks as well (Google Benchmark, VTK)
 #   setup.sh --fuzz     the search for bad inputs as well (clang's libFuzzer)
 #   setup.sh --tsan     what oneTBB is built with for ThreadSanitizer as well
@@ -24,6 +25,9 @@ packages=(
   python3-pip python3-wheel mypy  # tests: that it can be installed, and its type hints
   clang-format git                # tests: formatting
 )
+if [ "${1:-}" = "--browser" ]; then
+  packages+=(chromium)
+fi
 if [ "${1:-}" = "--bench" ]; then
   packages+=(libbenchmark-dev libvtk9-dev)
 fi

@@ -6,7 +6,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-scripts/setup.sh
+scripts/setup.sh --browser
 presets=("$@")
 if [ ${#presets[@]} -eq 0 ]; then
   presets=(release serial asan)
