@@ -20,6 +20,7 @@ Progress = Optional[Callable[[float], object]]
 #: Points (n, 3) to n numbers, or to n vectors (n, 3).
 Function = Callable[[Any], Any]
 
+#: Those whose handlers may well raise.
 _SIGNALS = [
     getattr(signal, name)
     for name in ("SIGINT", "SIGTERM", "SIGALRM", "SIGHUP", "SIGQUIT", "SIGUSR1", "SIGUSR2")
@@ -70,6 +71,8 @@ class _DeferredSignals:
                 if callable(handler):
                     self._handlers[number] = handler
                     signal.signal(number, self._note)
+        except ValueError:  # an interpreter that must not touch signals, and gets none
+            pass
         except BaseException:  # a signal that came between
             self._restore()
             raise
