@@ -37,6 +37,9 @@ constexpr const char* kDescription =
     "angle. Two surfaces are shown side by side or in turn. A field is reconstructed: linear and "
     "plic.\n";
 
+/// Browsers hold no longer text: Chromium's limit, which is the lowest.
+constexpr std::size_t kMostBytes = (std::size_t{1} << 29U) - 24;
+
 constexpr const char* kFooter =
     "Examples:\n"
     "  difmesh view drops.nrrd -o drops.html                     linear against plic\n"
@@ -200,6 +203,11 @@ void run(const Request& request) {
   page += without_tags(scene.dump(-1, ' ', false, Json::error_handler_t::replace));
   page += kPageAfterScene;
   const std::size_t bytes = page.size();
+  if (bytes > kMostBytes) {
+    throw Error(ErrorCode::too_large, "'" + request.page_path + "': a page of " +
+                                          std::to_string(bytes) +
+                                          " bytes is more than browsers can read, 512 MiB");
+  }
   OutputFile(request.page_path, std::move(page)).commit();
   if (request.quiet) {
     return;
