@@ -95,7 +95,7 @@ class Phases {
   }
 
  private:
-  static constexpr std::int64_t kSlices = 32;
+  static constexpr std::int64_t kSlices = 16;
 
   void report(double share) {
     if (!progress_(std::min(share, 1.0))) {
