@@ -86,6 +86,12 @@ void write_struct(Struct* to, std::uint64_t size, Struct value, const char* name
   std::memset(bytes + known, 0, reach - known);
 }
 
+/// Checks a caller's struct that is to be filled, before the work whose results it gets.
+template <class Struct>
+void check_output(const Struct* to, const char* name) {
+  check_struct_size(required(to, name).struct_size, name);
+}
+
 /// Fills a caller's struct whose size it has set.
 template <class Struct>
 void write_output(Struct* to, const Struct& value, const char* name) {

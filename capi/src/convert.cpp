@@ -1,7 +1,6 @@
 #include "convert.hpp"
 
 #include <array>
-#include <cstring>
 
 namespace difmesh::capi {
 namespace {

@@ -41,7 +41,7 @@ struct Field {
 void check_strides(const Index3& dims, const Index3& strides, std::int64_t element_bytes,
                    const char* name);
 
-/// A number of elements as the caller's array has to have them, in `bytes` each.
+/// \pre not negative
 [[nodiscard]] std::size_t to_size(std::int64_t count);
 
 }  // namespace difmesh::capi

@@ -48,10 +48,6 @@ void hand_over(const difmesh::Distance& from, dif_distance* to, const char* name
   capi::write_output(to, result, name);
 }
 
-void check_output(const dif_distance* distance, const char* name) {
-  capi::check_struct_size(capi::required(distance, name).struct_size, name);
-}
-
 }  // namespace
 
 dif_status dif_distance_to_shape(const dif_mesh* mesh, const dif_shape* shape,
@@ -59,7 +55,7 @@ dif_status dif_distance_to_shape(const dif_mesh* mesh, const dif_shape* shape,
   return capi::guarded([&] {
     const difmesh::Mesh& surface = capi::required(mesh, "mesh").mesh;
     const difmesh::Shape& body = capi::required(shape, "shape").shape;
-    check_output(result, "distance");
+    capi::check_output(result, "distance");
     hand_over(difmesh::distance(surface, body, to_options(options)), result, "distance");
   });
 }
@@ -71,7 +67,7 @@ dif_status dif_distance_to_function(const dif_mesh* mesh, dif_function function,
     if (function == nullptr) {
       capi::fail_argument("argument 'function' is NULL");
     }
-    check_output(result, "distance");
+    capi::check_output(result, "distance");
     const difmesh::SignedDistance signed_distance = [function, user](const Vec3& point) {
       double value = 0.0;
       if (function(user, 1, point.data(), &value) != 0) {
@@ -89,11 +85,11 @@ dif_status dif_distance_to_mesh(const dif_mesh* mesh, const dif_mesh* reference,
   return capi::guarded([&] {
     const difmesh::Mesh& surface = capi::required(mesh, "mesh").mesh;
     const difmesh::Mesh& truth = capi::required(reference, "reference").mesh;
-    check_output(result, "distance");
+    capi::check_output(result, "distance");
     difmesh::DistanceOptions given = to_options(options);
     given.both_ways = back != nullptr;
     if (back != nullptr) {
-      check_output(back, "back");
+      capi::check_output(back, "back");
     }
     const difmesh::MeshDistance found = difmesh::distance(surface, truth, given);
     hand_over(found.to_reference, result, "distance");

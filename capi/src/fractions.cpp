@@ -105,7 +105,7 @@ void hand_over(const Result& result, CReport* report, double* fractions) {
 template <class CReport>
 void check_report(const CReport* report) {
   if (report != nullptr) {
-    capi::check_struct_size(report->struct_size, "report");
+    capi::check_output(report, "report");
   }
 }
 

@@ -13,7 +13,7 @@ dif_status dif_measure_init(dif_measure* measure, uint64_t struct_size) {
 
 dif_status dif_mesh_measure(const dif_mesh* mesh, dif_measure* measure) {
   return capi::guarded([&] {
-    capi::check_struct_size(capi::required(measure, "measure").struct_size, "measure");
+    capi::check_output(measure, "measure");
     const difmesh::Measure facts = difmesh::measure(capi::required(mesh, "mesh").mesh);
     dif_measure result{};
     result.vertices = facts.vertices;
