@@ -1,8 +1,9 @@
 #include "mesh_scalars.hpp"
 
-#include <CLI/CLI.hpp>
 #include <array>
 
+#include "names.hpp"
+#include "parse.hpp"
 #include "roughness.hpp"
 
 namespace difmesh::cli {
@@ -46,6 +47,23 @@ VertexScalars scalars_of(const std::string& option, const std::string& name,
     known += (&kind == &kKinds.front() ? "" : ", ") + std::string(kind.name);
   }
   throw CLI::ValidationError(option, "'" + name + "' is none of " + known);
+}
+
+void add_colour_scale_options(CLI::App& command, ColourScale& scale) {
+  command
+      .add_option_function<std::string>(
+          "--color-map",
+          [&scale](const std::string& text) {
+            scale.map = parse_name("--color-map", text, kColourMaps);
+          },
+          "viridis (default), or cool_warm, which diverges from 0")
+      ->option_text("NAME");
+  command
+      .add_option_function<std::string>(
+          "--color-range",
+          [&scale](const std::string& text) { scale.range = parse_range("--color-range", text); },
+          "Numbers of the first and the last colour. Default: all there are")
+      ->option_text("LOW,HIGH");
 }
 
 }  // namespace difmesh::cli

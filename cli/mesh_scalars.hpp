@@ -2,11 +2,15 @@
 /// \file mesh_scalars.hpp
 /// Numbers per vertex that the program can colour a surface by.
 
+#include <CLI/CLI.hpp>
+#include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "difmesh/io/colour_map.hpp"
 #include "difmesh/io/vertex_scalars.hpp"
 
 namespace difmesh::cli {
@@ -25,5 +29,14 @@ struct ScalarKind {
 /// \throw CLI::ValidationError naming the option, the word and what there is
 [[nodiscard]] VertexScalars scalars_of(const std::string& option, const std::string& name,
                                        const ScalarMesh& surface);
+
+/// How numbers become colours, as far as the command line says.
+struct ColourScale {
+  std::optional<ColourMap> map;
+  std::optional<std::array<double, 2>> range;
+};
+
+/// Adds --color-map and --color-range. `scale` must outlive the parsing.
+void add_colour_scale_options(CLI::App& command, ColourScale& scale);
 
 }  // namespace difmesh::cli

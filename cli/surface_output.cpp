@@ -43,8 +43,8 @@ std::string write_as_gltf(const SurfaceOutput& output, const Mesh& mesh, double 
   }
   if (!output.color_by.empty()) {
     options.scalars.push_back(scalars_of("--color-by", output.color_by, {mesh, {}}));
-    options.colour = ColourBy{output.color_by, output.color_map.value_or(ColourMap::viridis),
-                              output.color_range};
+    options.colour = ColourBy{output.color_by, output.colours.map.value_or(ColourMap::viridis),
+                              output.colours.range};
   }
   options.up = output.up.value_or(options.up);
   options.metres_per_unit = output.metres_per_unit.value_or(options.metres_per_unit);
@@ -94,22 +94,7 @@ void add_colour_options(CLI::App& command, SurfaceOutput& output) {
           "--color-by", output.color_by,
           "Colour .glb and .gltf by a number per vertex, which is written too:" + kinds_text())
       ->option_text("NAME");
-  command
-      .add_option_function<std::string>(
-          "--color-map",
-          [&output](const std::string& text) {
-            output.color_map = parse_name("--color-map", text, kColourMaps);
-          },
-          "viridis (default), or cool_warm, which diverges from 0")
-      ->option_text("NAME");
-  command
-      .add_option_function<std::string>(
-          "--color-range",
-          [&output](const std::string& text) {
-            output.color_range = parse_range("--color-range", text);
-          },
-          "Numbers of the first and the last colour. Default: all there are")
-      ->option_text("LOW,HIGH");
+  add_colour_scale_options(command, output.colours);
 }
 
 }  // namespace
@@ -157,8 +142,8 @@ void check_surface_output(const SurfaceOutput& output) {
   check(!output.color_by.empty(), gltf, "--color-by", ".glb nor .gltf");
   check(output.up.has_value(), gltf, "--up", ".glb nor .gltf");
   check(output.metres_per_unit.has_value(), gltf, "--metres-per-unit", ".glb nor .gltf");
-  if (output.color_by.empty() && (output.color_map || output.color_range)) {
-    throw CLI::ValidationError(output.color_map ? "--color-map" : "--color-range",
+  if (output.color_by.empty() && (output.colours.map || output.colours.range)) {
+    throw CLI::ValidationError(output.colours.map ? "--color-map" : "--color-range",
                                "needs --color-by");
   }
   // Wrong words are told before the work begins.

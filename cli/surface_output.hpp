@@ -3,12 +3,12 @@
 /// The options with which a command writes a mesh, and the writing.
 
 #include <CLI/CLI.hpp>
-#include <array>
 #include <optional>
 #include <string>
 
 #include "difmesh/io/gltf_file.hpp"
 #include "difmesh/mesh.hpp"
+#include "mesh_scalars.hpp"
 
 namespace difmesh::cli {
 
@@ -19,8 +19,7 @@ struct SurfaceOutput {
   std::optional<DracoMethod> draco_method;
   std::optional<int> draco_speed;
   std::string color_by;
-  std::optional<ColourMap> color_map;
-  std::optional<std::array<double, 2>> color_range;
+  ColourScale colours;
   std::optional<UpAxis> up;
   std::optional<double> metres_per_unit;
 

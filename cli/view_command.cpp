@@ -51,8 +51,7 @@ struct Request {
   std::string second_path;
   std::string page_path;
   std::string color_by;
-  ColourMap color_map = ColourMap::viridis;
-  std::optional<std::array<double, 2>> color_range;
+  ColourScale colours;
   UpAxis up = UpAxis::y;
   bool quiet = false;
 };
@@ -175,11 +174,12 @@ Json scene_json(const Request& request, const std::vector<Shown>& shown) {
     scene["surfaces"].push_back(
         {{"name", one.name}, {"glb", encode_glb_base64(one.surface.mesh, options)}});
   }
-  scene["colours"] = colour_table(request.color_map);
-  scene["diverging"] = request.color_map == ColourMap::cool_warm;
+  const ColourMap map = request.colours.map.value_or(ColourMap::viridis);
+  scene["colours"] = colour_table(map);
+  scene["diverging"] = map == ColourMap::cool_warm;
   scene["colorBy"] = request.color_by;
-  if (request.color_range) {
-    scene["range"] = *request.color_range;
+  if (request.colours.range) {
+    scene["range"] = *request.colours.range;
   }
   return scene;
 }
@@ -227,22 +227,7 @@ void add_colour_options(CLI::App& command, Request& request) {
       .add_option("--color-by", request.color_by,
                   "Number per vertex to colour by at first; the page offers all")
       ->option_text("NAME");
-  command
-      .add_option_function<std::string>(
-          "--color-map",
-          [&request](const std::string& text) {
-            request.color_map = parse_name("--color-map", text, kColourMaps);
-          },
-          "viridis (default), or cool_warm, which diverges from 0")
-      ->option_text("NAME");
-  command
-      .add_option_function<std::string>(
-          "--color-range",
-          [&request](const std::string& text) {
-            request.color_range = parse_range("--color-range", text);
-          },
-          "Numbers of the first and the last colour of --color-by")
-      ->option_text("LOW,HIGH");
+  add_colour_scale_options(command, request.colours);
   command
       .add_option_function<std::string>(
           "--up",
