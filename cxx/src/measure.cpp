@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numeric>
-#include <string>
 #include <vector>
 
-#include "difmesh/error.hpp"
+#include "mesh_arrays.hpp"
 
 namespace difmesh {
 namespace {
+
+using detail::index_twice;
 
 /// One side of a triangle, filed under the smaller of its two vertices.
 struct EdgeUse {
@@ -62,32 +62,8 @@ class Sum {
   double lost_ = 0.0;
 };
 
-bool index_twice(const Triangle& t) {
-  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-}
-
 std::size_t next_corner(std::size_t corner) {
   return corner % 3 == 2 ? corner - 2 : corner + 1;
-}
-
-void check(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
-  for (std::size_t v = 0; v < positions.size(); ++v) {
-    const Vec3& p = positions[v];
-    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) {
-      throw Error(ErrorCode::invalid_argument,
-                  "measure: the position of vertex " + std::to_string(v) + " is not finite");
-    }
-  }
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (const std::uint32_t v : triangles[t]) {
-      if (v >= positions.size()) {
-        throw Error(ErrorCode::invalid_argument,
-                    "measure: triangle " + std::to_string(t) + " refers to vertex " +
-                        std::to_string(v) + ", but the mesh has " +
-                        std::to_string(positions.size()) + " vertices");
-      }
-    }
-  }
 }
 
 void measure_box(std::span<const Vec3> positions, Measure& m) {
@@ -264,7 +240,7 @@ class Topology {
 }  // namespace
 
 Measure measure(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
-  check(positions, triangles);
+  detail::check_mesh_arrays("measure", positions, triangles);
   Measure m;
   m.vertices = static_cast<std::int64_t>(positions.size());
   m.triangles = static_cast<std::int64_t>(triangles.size());

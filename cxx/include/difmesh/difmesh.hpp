@@ -2,6 +2,7 @@
 /// \file difmesh.hpp
 /// All of the core in one include.
 
+#include "difmesh/curvature.hpp"
 #include "difmesh/error.hpp"
 #include "difmesh/field_view.hpp"
 #include "difmesh/fractions_from_function.hpp"

@@ -1,0 +1,33 @@
+#pragma once
+// Which vertices are joined by edges.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "difmesh/mesh.hpp"
+#include "parallel.hpp"
+
+namespace difmesh::detail {
+
+/// The neighbours of each vertex, ascending, each once. Triangles with an index twice have no part.
+class VertexNeighbours {
+ public:
+  /// \pre indices in range, at most 2^32 - 1 vertices
+  VertexNeighbours(std::size_t vertices, std::span<const Triangle> triangles, Workers& workers);
+
+  [[nodiscard]] std::size_t size() const { return count_.size(); }
+  [[nodiscard]] std::span<const std::uint32_t> of(std::size_t vertex) const {
+    return {entries_.data() + first_[vertex], count_[vertex]};
+  }
+  /// Whether one of its edges has other than two triangles.
+  [[nodiscard]] bool on_boundary(std::size_t vertex) const { return on_boundary_[vertex] != 0; }
+
+ private:
+  std::vector<std::uint64_t> first_;
+  std::vector<std::uint32_t> count_;
+  std::vector<std::uint8_t> on_boundary_;
+  Array<std::uint32_t> entries_;
+};
+
+}  // namespace difmesh::detail
