@@ -10,6 +10,7 @@
 #include "difmesh/grid.hpp"
 #include "difmesh/measure.hpp"
 #include "difmesh/mesh.hpp"
+#include "difmesh/mollify.hpp"
 #include "difmesh/normals.hpp"
 #include "difmesh/options.hpp"
 #include "difmesh/plane.hpp"
