@@ -149,6 +149,58 @@ void claim_sphere_curvatures(Run& run, const Curves& found) {
             "at most " + number(worst, 3), worst < 1.0);
 }
 
+/// "rms / max", times a factor.
+std::string pair_text(const Tally& tally, double factor = 1.0) {
+  return number(factor * tally.rms(), 3) + " / " + number(factor * tally.maximum, 2);
+}
+
+/// Rms and maxima of the three placements over the cells, and all ways at one number of cells.
+void write_sphere_pages(const Run& run, const Study& study, const Curves& found) {
+  Table distances({"R/dx", "linear", "manson", "plic", "plic below manson, rms"});
+  Table curvatures({"R/dx", "linear", "manson", "plic", "manson over plic, rms"});
+  for (const double cells : study.cells) {
+    std::vector<std::string> distance{number(cells)};
+    std::vector<std::string> curvature{number(cells)};
+    for (const char* name : {"linear", "manson", "plic"}) {
+      const Errors& e = found.at(name).at(cells);
+      distance.push_back(pair_text(e.distance, cells));
+      curvature.push_back(pair_text(e.mean_curvature));
+    }
+    const Errors& manson = found.at("manson").at(cells);
+    const Errors& plic = found.at("plic").at(cells);
+    distance.push_back(number(100.0 * (1.0 - plic.distance.rms() / manson.distance.rms()), 3) +
+                       " %");
+    curvature.push_back(number(manson.mean_curvature.rms() / plic.mean_curvature.rms(), 3));
+    distances.add(distance);
+    curvatures.add(curvature);
+  }
+  run.write_page("sphere_distances", distances);
+  run.write_page("sphere_curvatures", curvatures);
+  Table ways({"surface", "distance, dx", "mean distance, dx", "H, 1/R", "K, 1/R²"});
+  constexpr double kCells = 50.0;
+  for (const Way& way : study.ways) {
+    const Errors& e = found.at(way.name).at(kCells);
+    ways.add({way.name, pair_text(e.distance, kCells), number(kCells * e.distance.mean(), 3),
+              pair_text(e.mean_curvature), pair_text(e.gaussian_curvature)});
+  }
+  run.write_page("sphere_ways", ways);
+}
+
+/// The row of a body in the page: rms at one number of cells, orders over all.
+void add_body_row(const Study& study, const Curves& found, double cells, Table& page) {
+  std::vector<std::string> row{study.body.name};
+  for (const char* name : {"linear", "manson", "plic"}) {
+    row.push_back(pair_text(found.at(name).at(cells).distance, cells));
+  }
+  row.push_back(number(order(found.at("plic"), distance_rms), 3) + " / " +
+                number(order(found.at("plic"), distance_max), 3));
+  for (const char* name : {"linear", "manson", "plic"}) {
+    const Tally& h = found.at(name).at(cells).mean_curvature;
+    row.push_back(h.count > 0 ? number(h.rms(), 3) : "");
+  }
+  page.add(row);
+}
+
 }  // namespace
 
 void run_sphere(Run& run) {
@@ -161,7 +213,8 @@ void run_sphere(Run& run) {
   const Curves found = curves(study, run.threads);
   Table table(kHead);
   add_rows(study, found, table);
-  run.write("sphere", table);
+  run.write_csv("sphere", table);
+  write_sphere_pages(run, study, found);
   claim_sphere_distances(run, found);
   claim_sphere_curvatures(run, found);
 }
@@ -171,6 +224,10 @@ void run_bodies(Run& run) {
                            Body::smooth_box(), Body::golf_ball()};
   bodies.insert(bodies.end(), run.mesh_bodies.begin(), run.mesh_bodies.end());
   Table table(kHead);
+  const double shown = run.is_short ? 60.0 : 100.0;
+  const std::string at = " at D/dx = " + number(shown);
+  Table page({"body", "linear, dx" + at, "manson, dx", "plic, dx", "orders of plic, rms / max",
+              "H of linear, rms, 1/D", "H of manson", "H of plic"});
   for (const Body& body : bodies) {
     Study study{body, {25, 35, 50, 75, 100, 150, 200}, 10, placements()};
     if (run.is_short) {
@@ -179,13 +236,15 @@ void run_bodies(Run& run) {
     }
     const Curves found = curves(study, run.threads);
     add_rows(study, found, table);
+    add_body_row(study, found, shown, page);
     const double fine = study.cells.back();
     const double plic = found.at("plic").at(fine).distance.rms();
     const double manson = found.at("manson").at(fine).distance.rms();
     run.claim(body.name + ": rms distance of plic over manson's at D/dx = " + number(fine), "< 1",
               number(plic / manson, 3), plic < manson);
   }
-  run.write("bodies", table);
+  run.write_csv("bodies", table);
+  run.write_page("bodies", page);
 }
 
 }  // namespace difmesh::paper

@@ -13,8 +13,11 @@
 
 namespace difmesh::paper {
 
-void Run::write(const std::string& name, const Table& table) const {
+void Run::write_csv(const std::string& name, const Table& table) const {
   table.write_csv(file(name + ".csv"));
+}
+
+void Run::write_page(const std::string& name, const Table& table) const {
   table.write_markdown(file(name + ".md"));
 }
 
@@ -68,7 +71,8 @@ bool run_parts(Run& run) {
   for (const Claim& claim : run.claims) {
     table.add({claim.text, claim.wanted, claim.measured, claim.holds ? "yes" : "no"});
   }
-  run.write("claims", table);
+  run.write_csv("claims", table);
+  run.write_page("claims", table);
   return std::ranges::all_of(run.claims, &Claim::holds);
 }
 

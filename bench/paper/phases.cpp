@@ -62,7 +62,8 @@ void run_phases(Run& run) {
     row.push_back(number(1e3 * std::stod(phase.printed), 4));
     table.add(row);
   }
-  run.write("table1", table);
+  run.write_csv("table1", table);
+  run.write_page("table1", table);
 }
 
 }  // namespace difmesh::paper

@@ -19,8 +19,10 @@ struct Run {
   std::vector<Claim> claims;      ///< what was found so far
 
   [[nodiscard]] std::filesystem::path file(const std::string& name) const { return out / name; }
-  /// Writes NAME.csv.
-  void write(const std::string& name, const Table& table) const;
+  /// Writes NAME.csv, for plots and for who wants all digits.
+  void write_csv(const std::string& name, const Table& table) const;
+  /// Writes NAME.md, for the page.
+  void write_page(const std::string& name, const Table& table) const;
   void claim(const std::string& text, const std::string& wanted, const std::string& measured,
              bool holds);
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "difmesh/mollify.hpp"
+
 namespace difmesh::paper {
 namespace {
 
@@ -19,6 +21,16 @@ Way plain(const std::string& name, const Options& options) {
           }};
 }
 
+/// E19, Fig. 2c.
+Mesh mollified_linear(const Sample& sample) {
+  MollifyOptions options;
+  options.threads = 1;
+  const Array<double> field = mollify(sample.field(), options);
+  return reconstruct(FieldView::x_fastest(field.data(), sample.grid.dims), sample.grid,
+                     one_thread(Placement::linear))
+      .mesh;
+}
+
 }  // namespace
 
 std::vector<Way> placements() {
@@ -31,11 +43,12 @@ std::vector<Way> all_ways() {
   std::vector<Way> ways = placements();
   ways.push_back(plain("plic (youngs)", one_thread(Placement::plic, Normals::youngs)));
   ways.push_back(plain("plic (myc)", one_thread(Placement::plic, Normals::myc)));
+  ways.push_back({"linear (mollified)", mollified_linear});
   return ways;
 }
 
 std::vector<std::string> golf_ball_ways() {
-  return {"linear", "manson", "plic"};
+  return {"linear", "linear (mollified)", "manson", "plic"};
 }
 
 Way way(const std::string& name) {
