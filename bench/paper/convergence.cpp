@@ -23,13 +23,18 @@ using Curves = std::map<std::string, std::map<double, Errors>>;
 struct Study {
   Body body;
   std::vector<double> cells;  ///< per size
-  int places = 1;             ///< random ones, per number of cells
+  int places = 1;             ///< random ones, per number of cells; a tenth beyond 64 cells
   std::vector<Way> ways;
 };
 
+int places_at(const Study& study, double cells) {
+  constexpr double kMany = 64.0;
+  return study.body.unit == "R" && cells > kMany ? (study.places + 9) / 10 : study.places;
+}
+
 /// Errors over all places, by way. The sums are taken in the order of the places.
 std::vector<Errors> errors_at(const Study& study, double cells, int threads) {
-  const auto places = static_cast<std::size_t>(study.places);
+  const auto places = static_cast<std::size_t>(places_at(study, cells));
   std::vector<std::vector<Errors>> found(places, std::vector<Errors>(study.ways.size()));
   for_each_case(places, threads, [&](std::size_t place) {
     const Sample at = sample(study.body, cells, place, 1);
@@ -50,7 +55,7 @@ Curves curves(const Study& study, int threads) {
   Curves result;
   for (const double cells : study.cells) {
     std::fprintf(stderr, "paper: %s, %s/dx = %g, %d places\n", study.body.name.c_str(),
-                 study.body.unit.c_str(), cells, study.places);
+                 study.body.unit.c_str(), cells, places_at(study, cells));
     const std::vector<Errors> found = errors_at(study, cells, threads);
     for (std::size_t w = 0; w < found.size(); ++w) {
       result[study.ways[w].name][cells] = found[w];
@@ -83,19 +88,19 @@ void add_rows(const Study& study, const Curves& found, Table& table) {
       const Tally& h = e.mean_curvature;
       const Tally& k = e.gaussian_curvature;
       table.add({study.body.name, study.body.unit, number(cells), way.name,
-                 std::to_string(study.places), std::to_string(e.vertices), number(e.distance.rms()),
-                 number(e.distance.maximum), number(e.distance.mean_maximum()),
-                 number(e.distance.mean()), number(h.rms()), number(h.maximum),
-                 number(h.mean_maximum()), number(k.rms()), number(k.maximum),
+                 std::to_string(places_at(study, cells)), std::to_string(e.vertices),
+                 number(e.distance.rms()), number(e.distance.maximum),
+                 number(e.distance.mean_maximum()), number(e.distance.mean()), number(h.rms()),
+                 number(h.maximum), number(h.mean_maximum()), number(k.rms()), number(k.maximum),
                  number(k.mean_maximum()), std::to_string(h.not_finite)});
     }
   }
 }
 
-/// Order of convergence between the first and the last number of cells.
+/// Order of convergence between a number of cells, by default the first, and the last one.
 template <class Measure>
-double order(const std::map<double, Errors>& curve, const Measure& measure) {
-  const auto& [coarse, first] = *curve.begin();
+double order(const std::map<double, Errors>& curve, const Measure& measure, double from = 0.0) {
+  const auto& [coarse, first] = *curve.lower_bound(from);
   const auto& [fine, last] = *curve.rbegin();
   return std::log(measure(first) / measure(last)) / std::log(fine / coarse);
 }
@@ -115,18 +120,22 @@ void claim_sphere_distances(Run& run, const Curves& found) {
   double low = 1.0;
   double high = 0.0;
   for (const auto& [cells, plic] : found.at("plic")) {
+    if (cells > 64.0) {
+      continue;
+    }
     const double below = 1.0 - plic.distance.rms() / found.at("manson").at(cells).distance.rms();
     low = std::min(low, below);
     high = std::max(high, below);
   }
-  run.claim("sphere: rms distance of plic below manson's, all R/dx", "25 % to 50 %",
+  run.claim("sphere: rms distance of plic below manson's, R/dx = 8 to 64", "25 % to 50 %",
             range_text(100.0 * low, 100.0 * high) + " %", low >= 0.25 && high <= 0.5);
   const auto& plic = found.at("plic");
-  const double of_max = order(plic, distance_max);
+  constexpr double kFrom = 16.0;  // docs/paper.md says why
+  const double of_max = order(plic, distance_max, kFrom);
   // A few places do not hold the worst one.
   const double wanted = run.is_short ? 1.85 : 1.9;
-  run.claim("sphere: order of plic in the largest distance", ">= " + number(wanted),
-            number(of_max, 4), of_max >= wanted);
+  run.claim("sphere: order of plic in the largest distance, from R/dx = 16 on",
+            ">= " + number(wanted), number(of_max, 4), of_max >= wanted);
   const double of_rms = order(plic, distance_rms);
   run.claim("sphere: order of plic in the rms distance", ">= 1.9", number(of_rms, 4),
             of_rms >= 1.9);
@@ -204,7 +213,7 @@ void add_body_row(const Study& study, const Curves& found, double cells, Table& 
 }  // namespace
 
 void run_sphere(Run& run) {
-  Study study{Body::sphere(), {8, 10, 12, 16, 20, 25, 32, 40, 50, 64}, 100, all_ways()};
+  Study study{Body::sphere(), {8, 10, 12, 16, 20, 25, 32, 40, 50, 64, 128}, 100, all_ways()};
   if (run.is_short) {
     study.cells = {8, 16, 32, 50};
     study.places = 3;

@@ -26,8 +26,8 @@ first_number(file, body, surface, column) = \
     body, surface, column, file)))
 
 sphere = folder . "/sphere.csv"
-set xtics (8, 10, 12, 16, 20, 25, 32, 40, 50, 64)
-set xrange [7.5:68]
+set xtics (8, 10, 12, 16, 20, 25, 32, 40, 50, 64, 128)
+set xrange [7.5:136]
 set xlabel "R/Δx"
 
 set output folder . "/sphere_distance.svg"
@@ -54,41 +54,37 @@ plot for [n = 1:3] sphere using 3:(of("sphere", word(surfaces, n), 14)) \
      for [n = 1:3] sphere using 3:(of("sphere", word(surfaces, n), 15)) \
        with linespoints linetype n dashtype 2 title word(surfaces, n) . ", max"
 
-# One small plot per other body.
+# One small plot per other body; colours and lines are said once, above.
 bodies = folder . "/bodies.csv"
-names = system(sprintf("awk -F, 'NR > 1 && !seen[$1]++ {gsub(/ /, \"_\", $1); printf \"%%s \", $1}' '%s'", bodies))
-name(n) = system(sprintf("echo '%s' | tr _ ' '", word(names, n)))
+list(condition) = system(sprintf( \
+  "awk -F, 'NR > 1 && %s && !seen[$1]++ {gsub(/ /, \"_\", $1); printf \"%%s \", $1}' '%s'", \
+  condition, bodies))
 set terminal svg size 900,560 font "sans-serif,12" background "#ffffff"
 set xtics (25, 50, 100, 200)
 set xrange [22:230]
 set xlabel "D/Δx"
-set key inside left bottom samplen 1.5 spacing 1.0 font ",10"
+set mytics 1
+unset key
+set label 1 "linear" at screen 0.36,0.975 textcolor "#9a9a9a"
+set label 2 "manson" at screen 0.43,0.975 textcolor "#d1730b"
+set label 3 "plic" at screen 0.51,0.975 textcolor "#0b5fa5"
+set label 4 "full: rms, dashed: max" at screen 0.56,0.975
 
-set output folder . "/bodies_distance.svg"
-set multiplot layout 2,3
-do for [b = 1:words(names)] {
-  body = name(b)
-  set title body
-  set ylabel b % 3 == 1 ? "distance, D" : ""
-  plot for [n = 1:3] bodies using 3:(of(body, word(surfaces, n), 7)) \
-         with linespoints linetype n title b == 1 ? word(surfaces, n) . ", rms" : "", \
-       for [n = 1:3] bodies using 3:(of(body, word(surfaces, n), 8)) \
-         with linespoints linetype n dashtype 2 title b == 1 ? word(surfaces, n) . ", max" : ""
+drawing(n) = system(sprintf("echo '%s' | tr _ ' '", word(names, n)))
+do for [what = 1:2] {
+  first = what == 1 ? 7 : 11
+  names = list(what == 1 ? "1" : "$11 > 0")
+  columns = what == 1 ? 3 : 2
+  set output folder . (what == 1 ? "/bodies_distance.svg" : "/bodies_curvature.svg")
+  set multiplot layout 2,columns margins 0.08,0.98,0.10,0.90 spacing 0.07,0.16
+  do for [b = 1:words(names)] {
+    body = drawing(b)
+    set title body
+    set ylabel b % columns == 1 ? (what == 1 ? "distance, D" : "error of mean curvature, 1/D") : ""
+    plot for [n = 1:3] bodies using 3:(of(body, word(surfaces, n), first)) \
+           with linespoints linetype n, \
+         for [n = 1:3] bodies using 3:(of(body, word(surfaces, n), first + 1)) \
+           with linespoints linetype n dashtype 2
+  }
+  unset multiplot
 }
-unset multiplot
-
-curved = system(sprintf("awk -F, 'NR > 1 && $11 > 0 && !seen[$1]++ {gsub(/ /, \"_\", $1); printf \"%%s \", $1}' '%s'", bodies))
-names = curved
-set terminal svg size 900,560 font "sans-serif,12" background "#ffffff"
-set output folder . "/bodies_curvature.svg"
-set multiplot layout 2,2
-do for [b = 1:words(names)] {
-  body = name(b)
-  set title body
-  set ylabel b % 2 == 1 ? "error of mean curvature, 1/D" : ""
-  plot for [n = 1:3] bodies using 3:(of(body, word(surfaces, n), 11)) \
-         with linespoints linetype n title b == 1 ? word(surfaces, n) . ", rms" : "", \
-       for [n = 1:3] bodies using 3:(of(body, word(surfaces, n), 12)) \
-         with linespoints linetype n dashtype 2 title b == 1 ? word(surfaces, n) . ", max" : ""
-}
-unset multiplot
