@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 
 #include "difmesh/error.hpp"
 
@@ -9,6 +11,11 @@ namespace difmesh::detail {
 
 void check_mesh_arrays(const std::string& caller, std::span<const Vec3> positions,
                        std::span<const Triangle> triangles) {
+  if (positions.size() > std::numeric_limits<std::uint32_t>::max()) {
+    throw Error(ErrorCode::too_large, caller + ": the mesh has " +
+                                          std::to_string(positions.size()) +
+                                          " vertices, more than 2^32 - 1");
+  }
   for (std::size_t v = 0; v < positions.size(); ++v) {
     const Vec3& p = positions[v];
     if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) {

@@ -113,7 +113,7 @@ bool fit_in_frame(std::span<const PatchPoint> points, const Frame& frame, Terms&
 
 /// Curvatures of the graph of h at x = y = 0, from its fundamental forms. Written so that the
 /// difference of the principal curvatures is a sum of squares: it does not cancel where they agree.
-PatchCurvature graph_curvature(const Terms& c) {
+PatchFit graph_curvature(const Terms& c) {
   const double e = 1.0 + c[1] * c[1];
   const double f = c[1] * c[2];
   const double g = 1.0 + c[2] * c[2];
@@ -125,7 +125,10 @@ PatchCurvature graph_curvature(const Terms& c) {
   const double twist = (e * m - f * l) / e;
   const double stretch = e * n - g * l - 2.0 * f * twist;
   return {bend * (e * n - 2.0 * f * m + g * l),
-          -bend * std::sqrt(stretch * stretch + 4.0 * area2 * twist * twist), true};
+          -bend * std::sqrt(stretch * stretch + 4.0 * area2 * twist * twist),
+          0.0,
+          {},
+          true};
 }
 
 }  // namespace
@@ -154,16 +157,18 @@ void PatchPoints::assign(std::span<const Vec3> positions, std::span<const std::u
   }
 }
 
-PatchCurvature fit_patch(std::span<const PatchPoint> points, const Vec3& normal) {
+PatchFit fit_patch(std::span<const PatchPoint> points, const Vec3& normal) {
   Vec3 axis = normal;
-  PatchCurvature curvature;
+  PatchFit fitted;
   for (int fit = 0; fit < kMostFits; ++fit) {
     const Frame frame(axis);
     Terms c{};
     if (!fit_in_frame(points, frame, c)) {
       break;
     }
-    curvature = graph_curvature(c);
+    fitted = graph_curvature(c);
+    fitted.height = c[0];
+    fitted.axis = axis;
     if (std::abs(c[1]) <= kStill && std::abs(c[2]) <= kStill) {
       break;
     }
@@ -172,7 +177,7 @@ PatchCurvature fit_patch(std::span<const PatchPoint> points, const Vec3& normal)
       break;
     }
   }
-  return curvature;
+  return fitted;
 }
 
 }  // namespace difmesh::detail

@@ -28,17 +28,19 @@ class PatchPoints {
   double unit_ = 0.0;
 };
 
-/// Principal curvatures, as half their sum and half their difference. Positive where the surface
-/// bends away from the normal.
-struct PatchCurvature {
+struct PatchFit {
+  /// Principal curvatures, as half their sum and half their difference. Positive where the surface
+  /// bends away from the normal.
   double mean = 0.0;
   double half_difference = 0.0;
+  double height = 0.0;         ///< of the patch over the vertex, along the frame's axis
+  Vec3 axis{0.0, 0.0, 0.0};    ///< unit vector, of the last frame
   bool is_determined = false;  ///< by the points; the rest is 0 otherwise
 };
 
 /// Fits h = c0 + c1 x + c2 y + c3 x² + c4 xy + c5 y² over the plane across `normal` and turns the
 /// normal with the patch until it stays.
 /// \param normal unit vector
-[[nodiscard]] PatchCurvature fit_patch(std::span<const PatchPoint> points, const Vec3& normal);
+[[nodiscard]] PatchFit fit_patch(std::span<const PatchPoint> points, const Vec3& normal);
 
 }  // namespace difmesh::detail

@@ -39,19 +39,26 @@ VertexNeighbours::VertexNeighbours(std::size_t vertices, std::span<const Triangl
   first_.pop_back();
   const auto count = static_cast<std::int64_t>(vertices);
   workers.for_portions(count, kVerticesPerPortion, [&](std::int64_t begin, std::int64_t end) {
+    std::vector<std::uint32_t> inner;
     for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v) {
       std::uint32_t* const from = entries_.data() + first_[v];
       std::uint32_t* const to = entries_.data() + first_[v + 1];
       std::sort(from, to);
+      inner.clear();
       std::uint32_t* kept = from;
       for (std::uint32_t* run = from; run != to;) {
         const std::uint32_t neighbour = *run;
         std::uint32_t* const next =
             std::find_if(run, to, [&](std::uint32_t other) { return other != neighbour; });
-        on_boundary_[v] |= next - run == 2 ? 0 : 1;
-        *kept++ = neighbour;
+        if (next - run == 2) {
+          inner.push_back(neighbour);
+        } else {
+          *kept++ = neighbour;
+        }
         run = next;
       }
+      on_boundary_[v] = static_cast<std::uint32_t>(kept - from);
+      kept = std::copy(inner.begin(), inner.end(), kept);
       count_[v] = static_cast<std::uint32_t>(kept - from);
     }
   });

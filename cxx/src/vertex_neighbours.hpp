@@ -10,7 +10,9 @@
 
 namespace difmesh::detail {
 
-/// The neighbours of each vertex, ascending, each once. Triangles with an index twice have no part.
+/// The neighbours of each vertex, each once: first those along the boundary, that is over edges that
+/// have other than two triangles, then the others, both ascending. Triangles with an index twice
+/// have no part.
 class VertexNeighbours {
  public:
   /// \pre indices in range, at most 2^32 - 1 vertices
@@ -20,13 +22,19 @@ class VertexNeighbours {
   [[nodiscard]] std::span<const std::uint32_t> of(std::size_t vertex) const {
     return {entries_.data() + first_[vertex], count_[vertex]};
   }
-  /// Whether one of its edges has other than two triangles.
+  /// Place of of(vertex)[0] in arrays with an entry for each neighbour of each vertex, entries() in
+  /// all, some of them unused.
+  [[nodiscard]] std::size_t first(std::size_t vertex) const { return first_[vertex]; }
+  [[nodiscard]] std::size_t entries() const { return entries_.size(); }
+  [[nodiscard]] std::span<const std::uint32_t> along_boundary(std::size_t vertex) const {
+    return of(vertex).first(on_boundary_[vertex]);
+  }
   [[nodiscard]] bool on_boundary(std::size_t vertex) const { return on_boundary_[vertex] != 0; }
 
  private:
   std::vector<std::uint64_t> first_;
   std::vector<std::uint32_t> count_;
-  std::vector<std::uint8_t> on_boundary_;
+  std::vector<std::uint32_t> on_boundary_;  ///< how many neighbours
   Array<std::uint32_t> entries_;
 };
 

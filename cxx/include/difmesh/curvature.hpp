@@ -15,7 +15,7 @@ struct CurvatureOptions {
   int rings = 2;
   bool principal = false;  ///< fill Curvature::largest and smallest
   int threads = 0;         ///< at most this many, 0: as the machine has; changes no bit
-  Progress progress;       ///< may be empty; see options.hpp
+  Progress progress = {};  ///< may be empty; see options.hpp
 };
 
 /// Curvatures of the surface near each vertex, in 1 / unit of the positions, squared for the

@@ -2,6 +2,7 @@
 /// \file difmesh.hpp
 /// All of the core in one include.
 
+#include "difmesh/constrained_smoothing.hpp"
 #include "difmesh/curvature.hpp"
 #include "difmesh/error.hpp"
 #include "difmesh/field_view.hpp"
@@ -16,5 +17,6 @@
 #include "difmesh/plane.hpp"
 #include "difmesh/reconstruct.hpp"
 #include "difmesh/shapes.hpp"
+#include "difmesh/smoothing.hpp"
 #include "difmesh/version.hpp"
 #include "difmesh/weld.hpp"

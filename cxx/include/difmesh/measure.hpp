@@ -36,7 +36,8 @@ struct Measure {
 };
 
 /// Measures a mesh.
-/// \throw Error invalid_argument if an index is out of range (the triangle is named) or a position
+/// \throw Error too_large beyond 2^32 - 1 vertices;
+///   invalid_argument if an index is out of range (the triangle is named) or a position
 ///   is not finite (the vertex is named).
 ///
 /// Cost: O(n log n) at worst and O(n) for meshes of bounded vertex degree, some 0.15 s for a

@@ -14,8 +14,8 @@ struct MollifyOptions {
   /// What lies beyond the sides, as in Options; but nothing being known beyond `open` sides, they
   /// count as mirrors here.
   Sides sides{Side::open, Side::open, Side::open, Side::open, Side::open, Side::open};
-  int threads = 0;    ///< at most this many, 0: as the machine has; changes no bit
-  Progress progress;  ///< may be empty; see options.hpp
+  int threads = 0;         ///< at most this many, 0: as the machine has; changes no bit
+  Progress progress = {};  ///< may be empty; see options.hpp
 };
 
 /// Convolution of a field with the kernel (1 - r²/radius²)^4, r < radius, whose sum over the cells
