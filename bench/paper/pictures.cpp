@@ -27,6 +27,7 @@ struct Sheet {
   double range = 0.0;  ///< of the colours, on both sides of 0
   std::string range_text;
   double zoom = 1.0;
+  bool raking = false;  ///< light from the side
 };
 
 /// Distance from the body and error of the mean curvature, in the body's size.
@@ -68,17 +69,23 @@ Json draw(const Run& run, const std::filesystem::path& folder, const Sheet& shee
   return {{"name", sheet.name},
           {"panels", panels},
           {"columns", 3},
-          {"view", {{"size", kSize}, {"zoom", sheet.zoom}, {"from", {0.5, 0.35, 0.8}}}}};
+          {"view",
+           {{"size", kSize},
+            {"zoom", sheet.zoom},
+            {"raking", sheet.raking},
+            {"from", {0.5, 0.35, 0.8}}}}};
 }
 
 std::vector<Sheet> sheets() {
   const std::vector<std::string> three{"linear", "manson", "plic"};
   return {
-      {"golf_ball", Body::golf_ball(), 150.0, golf_ball_ways(), "", 0.0, "", 2.6},
-      {"sphere_distances", Body::sphere(), 64.0, three, "distance", 5e-5, "±5e-5 R", 1.6},
-      {"genus_distances", Body::genus(), 75.0, three, "distance", 4.2e-4, "±4.2e-4 D", 1.25},
-      {"sphere_curvatures", Body::sphere(), 50.0, three, "curvature_error", 0.1, "±0.1 / R", 1.6},
-      {"genus_curvatures", Body::genus(), 75.0, three, "curvature_error", 2.0, "±2 / D", 1.25},
+      {"golf_ball", Body::golf_ball(), 150.0, golf_ball_ways(), "", 0.0, "", 2.2, true},
+      {"sphere_distances", Body::sphere(), 64.0, three, "distance", 5e-5, "±5e-5 R", 1.6, false},
+      {"genus_distances", Body::genus(), 75.0, three, "distance", 4.2e-4, "±4.2e-4 D", 1.25, false},
+      {"sphere_curvatures", Body::sphere(), 50.0, three, "curvature_error", 0.1, "±0.1 / R", 1.6,
+       false},
+      {"genus_curvatures", Body::genus(), 75.0, three, "curvature_error", 2.0, "±2 / D", 1.25,
+       false},
   };
 }
 

@@ -18,7 +18,7 @@ const browser = await playwright.chromium.launch({executablePath: chromium, args
   '--disable-component-update', '--disable-sync', '--enable-unsafe-swiftshader']});
 
 /// A surface by itself, as PNG.
-async function picture({file, colour, range}, {size, zoom, from}) {
+async function picture({file, colour, range}, {size, zoom, from, raking}) {
   const page = join(folder, 'pictures', `${file}.html`);
   const colours = colour ? ['--color-by', colour, '--color-map', 'cool_warm', '--color-range',
     `${-range},${range}`] : [];
@@ -31,13 +31,23 @@ async function picture({file, colour, range}, {size, zoom, from}) {
     throw new Error(`${file}: the page is not ready`);
   }
   await tab.addStyleTag({content: '#panel, .name { display: none }'});
-  await tab.evaluate(({zoom, from}) => {
-    const {camera, controls} = window.difmesh;
+  await tab.evaluate(({zoom, from, raking}) => {
+    const {camera, controls, scene} = window.difmesh;
+    if (raking) {  // what stands out by less than a cell shows in light from the side
+      scene.traverse((node) => {
+        if (node.isHemisphereLight) {
+          node.intensity = 0.3;
+        } else if (node.isDirectionalLight) {
+          node.position.set(-1.2, 0.9, 0.1);
+          node.intensity = 4;
+        }
+      });
+    }
     const distance = camera.position.length() / zoom;
     camera.position.set(...from).setLength(distance);
     controls.update();
     window.difmesh.draw();
-  }, {zoom, from});
+  }, {zoom, from, raking});
   const image = await tab.screenshot();
   await tab.close();
   return image.toString('base64');

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "difmesh/constrained_smoothing.hpp"
 #include "difmesh/mollify.hpp"
+#include "difmesh/smoothing.hpp"
 
 namespace difmesh::paper {
 namespace {
@@ -31,6 +33,56 @@ Mesh mollified_linear(const Sample& sample) {
       .mesh;
 }
 
+Mesh linear(const Sample& sample) {
+  return reconstruct(sample.field(), sample.grid, one_thread(Placement::linear)).mesh;
+}
+
+/// Steps of all smoothing, as in E19, Fig. 2d.
+constexpr int kSteps = 15;
+
+Mesh laplacian_linear(const Sample& sample) {
+  LaplacianOptions options;
+  options.steps = kSteps;
+  options.threads = 1;
+  Mesh mesh = linear(sample);
+  mesh.positions = smooth_laplacian(mesh.positions, mesh.triangles, options);
+  return mesh;
+}
+
+Mesh taubin_linear(const Sample& sample) {
+  TaubinOptions options;
+  options.steps = kSteps;
+  options.threads = 1;
+  Mesh mesh = linear(sample);
+  mesh.positions = smooth_taubin(mesh.positions, mesh.triangles, options);
+  return mesh;
+}
+
+/// One step, so long that waves of four cells are damped to a tenth.
+Mesh flow_linear(const Sample& sample) {
+  CurvatureFlowOptions options;
+  options.time = 3.6 * sample.spacing() * sample.spacing();
+  options.threads = 1;
+  Mesh mesh = linear(sample);
+  mesh.positions = smooth_by_curvature_flow(mesh.positions, mesh.triangles, options);
+  return mesh;
+}
+
+/// With the default tolerance in the fractions.
+Mesh constrained(const Sample& sample, Placement placement) {
+  Options options = one_thread(placement);
+  options.edge_ids = true;
+  Mesh mesh = reconstruct(sample.field(), sample.grid, options).mesh;
+  ConstrainedSmoothingOptions smoothing;
+  smoothing.threads = 1;
+  mesh.positions = smooth_within_fractions(mesh, sample.grid, smoothing).positions;
+  return mesh;
+}
+
+Way constrained_way(const std::string& name, Placement placement) {
+  return {name, [placement](const Sample& sample) { return constrained(sample, placement); }};
+}
+
 }  // namespace
 
 std::vector<Way> placements() {
@@ -44,11 +96,17 @@ std::vector<Way> all_ways() {
   ways.push_back(plain("plic (youngs)", one_thread(Placement::plic, Normals::youngs)));
   ways.push_back(plain("plic (myc)", one_thread(Placement::plic, Normals::myc)));
   ways.push_back({"linear (mollified)", mollified_linear});
+  ways.push_back({"linear + laplacian", laplacian_linear});
+  ways.push_back({"linear + taubin", taubin_linear});
+  ways.push_back({"linear + curvature flow", flow_linear});
+  ways.push_back(constrained_way("linear + constrained", Placement::linear));
+  ways.push_back(constrained_way("plic + constrained", Placement::plic));
   return ways;
 }
 
 std::vector<std::string> golf_ball_ways() {
-  return {"linear", "linear (mollified)", "manson", "plic"};
+  return {"linear", "linear (mollified)", "linear + taubin", "linear + constrained", "manson",
+          "plic"};
 }
 
 Way way(const std::string& name) {
