@@ -163,7 +163,7 @@ std::string pair_text(const Tally& tally, double factor = 1.0) {
   return number(factor * tally.rms(), 3) + " / " + number(factor * tally.maximum, 2);
 }
 
-/// Rms and maxima of the three placements over the cells, and all ways at one number of cells.
+/// Rms and maxima of the three placements over the cells.
 void write_sphere_pages(const Run& run, const Study& study, const Curves& found) {
   Table distances({"R/dx", "linear", "manson", "plic", "plic below manson, rms"});
   Table curvatures({"R/dx", "linear", "manson", "plic", "manson over plic, rms"});
@@ -185,14 +185,41 @@ void write_sphere_pages(const Run& run, const Study& study, const Curves& found)
   }
   run.write_page("sphere_distances", distances);
   run.write_page("sphere_curvatures", curvatures);
-  Table ways({"surface", "distance, dx", "mean distance, dx", "H, 1/R", "K, 1/R²"});
-  constexpr double kCells = 50.0;
+}
+
+/// Distances and curvatures of `plic` by normals, at some numbers of cells.
+void write_normals_page(const Run& run, const Study& study, const Curves& found) {
+  std::vector<double> shown;
+  std::vector<std::string> head{"normals"};
+  for (const double cells : study.cells) {
+    if (std::exp2(std::round(std::log2(cells))) == cells) {
+      shown.push_back(cells);
+      head.push_back("R/dx = " + number(cells));
+    }
+  }
+  Table page(head);
   for (const Way& way : study.ways) {
-    const Errors& e = found.at(way.name).at(kCells);
-    ways.add({way.name, pair_text(e.distance, kCells), number(kCells * e.distance.mean(), 3),
+    if (!way.name.starts_with("plic")) {
+      continue;
+    }
+    std::vector<std::string> row{way.name};
+    for (const double cells : shown) {
+      const Errors& e = found.at(way.name).at(cells);
+      row.push_back(pair_text(e.distance, cells) + "; " + number(e.mean_curvature.rms(), 3));
+    }
+    page.add(row);
+  }
+  run.write_page("sphere_normals", page);
+}
+
+void write_ways_page(const Run& run, const Study& study, const Curves& found) {
+  Table page({"surface", "distance, dx", "mean distance, dx", "H, 1/R", "K, 1/R²"});
+  for (const Way& way : study.ways) {
+    const auto& [cells, e] = *found.at(way.name).begin();
+    page.add({way.name, pair_text(e.distance, cells), number(cells * e.distance.mean(), 3),
               pair_text(e.mean_curvature), pair_text(e.gaussian_curvature)});
   }
-  run.write_page("sphere_ways", ways);
+  run.write_page("sphere_ways", page);
 }
 
 /// The row of a body in the page: rms at one number of cells, orders over all.
@@ -213,17 +240,25 @@ void add_body_row(const Study& study, const Curves& found, double cells, Table& 
 }  // namespace
 
 void run_sphere(Run& run) {
-  Study study{Body::sphere(), {8, 10, 12, 16, 20, 25, 32, 40, 50, 64, 128}, 100, all_ways()};
+  Study study{
+      Body::sphere(), {8, 10, 12, 16, 20, 25, 32, 40, 50, 64, 128}, 100, placements_and_normals()};
+  Study other{Body::sphere(), {50}, 10, all_ways()};
   if (run.is_short) {
     study.cells = {8, 16, 32, 50};
     study.places = 3;
-    study.ways = placements();
+    other.places = 1;
   }
   const Curves found = curves(study, run.threads);
   Table table(kHead);
   add_rows(study, found, table);
   run.write_csv("sphere", table);
   write_sphere_pages(run, study, found);
+  write_normals_page(run, study, found);
+  const Curves others = curves(other, run.threads);
+  Table other_table(kHead);
+  add_rows(other, others, other_table);
+  run.write_csv("sphere_ways", other_table);
+  write_ways_page(run, other, others);
   claim_sphere_distances(run, found);
   claim_sphere_curvatures(run, found);
 }

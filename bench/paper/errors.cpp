@@ -6,25 +6,38 @@
 #include <vector>
 
 #include "difmesh/curvature.hpp"
+#include "reference_surface.hpp"
 
 namespace difmesh::paper {
 namespace {
 
-/// Of the vertices of a surface from a shape, and of the curvatures there.
-void add_shape_errors(const Body& body, const Mesh& mesh, Errors& found) {
+/// The metrics library gives statistics; its inside gives the distances themselves.
+std::vector<double> distances_from_mesh(const Mesh& reference, const Mesh& mesh) {
+  constexpr int kThreads = 1;
+  detail::SurfaceView view{"reference", reference.positions, reference.triangles};
+  view.scale =
+      detail::scale_of(detail::box_of(mesh.positions), detail::box_of(reference.positions));
+  detail::Workers workers(kThreads);
+  const detail::ReferenceSurface surface(view, true, kThreads, workers);
+  const auto probe = surface.probe();
   std::vector<double> distances(mesh.positions.size());
-  body.shape->distances(mesh.positions, distances);
+  std::ranges::transform(mesh.positions, distances.begin(),
+                         [&](const Vec3& point) { return probe->measure(point); });
+  return distances;
+}
+
+/// Of the curvatures at vertices whose distances are known.
+void add_curvature_errors(const Body& body, const Mesh& mesh, const std::vector<double>& distances,
+                          Errors& found) {
   CurvatureOptions options;
   options.threads = 1;
   const Curvature fitted = curvature(mesh, options);
   for (std::size_t v = 0; v < distances.size(); ++v) {
-    found.distance.add(distances[v] / body.size);
     if (const auto exact = exact_curvatures(body, mesh.positions[v], distances[v])) {
       found.mean_curvature.add((fitted.mean[v] - exact->mean) * body.size);
       found.gaussian_curvature.add((fitted.gaussian[v] - exact->gaussian) * body.size * body.size);
     }
   }
-  found.distance.end_surface();
   found.mean_curvature.end_surface();
   found.gaussian_curvature.end_surface();
 }
@@ -57,16 +70,6 @@ void Tally::end_surface() {
   surface_maximum_ = 0.0;
 }
 
-void Tally::add(const DistanceStatistics& surface, double size) {
-  const auto points = static_cast<double>(surface.points);
-  count += surface.points;
-  sum += points * surface.signed_mean / size;
-  sum_of_squares += points * surface.rms * surface.rms / (size * size);
-  maximum = std::max(maximum, surface.maximum / size);
-  sum_of_maxima += surface.maximum / size;
-  ++surfaces;
-}
-
 void Tally::add(const Tally& other) {
   count += other.count;
   sum_of_squares += other.sum_of_squares;
@@ -96,17 +99,24 @@ void Errors::add(const Errors& other) {
   gaussian_curvature.add(other.gaussian_curvature);
 }
 
+std::vector<double> vertex_distances(const Body& body, const Mesh& mesh) {
+  if (!body.shape) {
+    return distances_from_mesh(*body.mesh, mesh);
+  }
+  std::vector<double> distances(mesh.positions.size());
+  body.shape->distances(mesh.positions, distances);
+  return distances;
+}
+
 Errors errors(const Body& body, const Mesh& mesh) {
   Errors found;
   found.vertices = static_cast<std::int64_t>(mesh.positions.size());
-  if (body.shape) {
-    add_shape_errors(body, mesh, found);
-    return found;
+  const std::vector<double> distances = vertex_distances(body, mesh);
+  for (const double distance : distances) {
+    found.distance.add(distance / body.size);
   }
-  DistanceOptions options;
-  options.both_ways = false;
-  options.threads = 1;
-  found.distance.add(distance(mesh, *body.mesh, options).to_reference.vertices, body.size);
+  found.distance.end_surface();
+  add_curvature_errors(body, mesh, distances, found);
   return found;
 }
 

@@ -2,9 +2,9 @@
 // How far surfaces are from the truth, at their vertices.
 
 #include <cstdint>
+#include <vector>
 
 #include "bodies.hpp"
-#include "difmesh/distance.hpp"
 
 namespace difmesh::paper {
 
@@ -21,8 +21,6 @@ struct Tally {
   void add(double error);
   /// Closes the surface that add() was called for.
   void end_surface();
-  /// Adds a surface by what is known of all its vertices.
-  void add(const DistanceStatistics& surface, double size);
   /// Adds what another has seen.
   void add(const Tally& other);
 
@@ -36,10 +34,13 @@ struct Tally {
   std::int64_t surface_count_ = 0;
 };
 
+/// Signed distance of each vertex from the body, in the body's unit; positive outside.
+[[nodiscard]] std::vector<double> vertex_distances(const Body& body, const Mesh& mesh);
+
 /// In the body's sizes: distances over size, mean curvature times size, Gaussian times size².
 struct Errors {
   std::int64_t vertices = 0;
-  Tally distance;  ///< positive outside; meshes that are not closed have no sign
+  Tally distance;  ///< positive outside
   Tally mean_curvature;
   Tally gaussian_curvature;
 

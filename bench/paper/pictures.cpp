@@ -9,6 +9,7 @@
 
 #include "difmesh/curvature.hpp"
 #include "difmesh/io/gltf_file.hpp"
+#include "errors.hpp"
 #include "run.hpp"
 #include "surfaces.hpp"
 
@@ -32,8 +33,7 @@ struct Sheet {
 
 /// Distance from the body and error of the mean curvature, in the body's size.
 std::vector<VertexScalars> scalars_of(const Body& body, const Mesh& mesh) {
-  std::vector<double> distances(mesh.positions.size());
-  body.shape->distances(mesh.positions, distances);
+  const std::vector<double> distances = vertex_distances(body, mesh);
   const Curvature fitted = curvature(mesh);
   VertexScalars distance{"distance", {}};
   VertexScalars error{"curvature_error", {}};
@@ -76,9 +76,9 @@ Json draw(const Run& run, const std::filesystem::path& folder, const Sheet& shee
             {"from", {0.5, 0.35, 0.8}}}}};
 }
 
-std::vector<Sheet> sheets() {
+std::vector<Sheet> sheets(const Run& run) {
   const std::vector<std::string> three{"linear", "manson", "plic"};
-  return {
+  std::vector<Sheet> all{
       {"golf_ball", Body::golf_ball(), 150.0, golf_ball_ways(), "", 0.0, "", 2.2, true},
       {"sphere_distances", Body::sphere(), 64.0, three, "distance", 5e-5, "±5e-5 R", 1.6, false},
       {"genus_distances", Body::genus(), 75.0, three, "distance", 4.2e-4, "±4.2e-4 D", 1.25, false},
@@ -87,6 +87,11 @@ std::vector<Sheet> sheets() {
       {"genus_curvatures", Body::genus(), 75.0, three, "curvature_error", 2.0, "±2 / D", 1.25,
        false},
   };
+  for (const Body& body : run.mesh_bodies) {
+    all.push_back({body.name + "_distances", body, 100.0, three, "distance", 5.2e-4, "±5.2e-4 D",
+                   1.4, false});
+  }
+  return all;
 }
 
 }  // namespace
@@ -95,7 +100,7 @@ void run_pictures(Run& run) {
   const std::filesystem::path folder = run.out / "pictures";
   std::filesystem::create_directories(folder);
   Json all = Json::array();
-  for (Sheet sheet : sheets()) {
+  for (Sheet sheet : sheets(run)) {
     std::fprintf(stderr, "paper: meshes for %s\n", sheet.name.c_str());
     sheet.cells = run.is_short ? 0.3 * sheet.cells : sheet.cells;
     all.push_back(draw(run, folder, sheet));

@@ -91,10 +91,15 @@ std::vector<Way> placements() {
           plain("plic", one_thread(Placement::plic))};
 }
 
-std::vector<Way> all_ways() {
+std::vector<Way> placements_and_normals() {
   std::vector<Way> ways = placements();
   ways.push_back(plain("plic (youngs)", one_thread(Placement::plic, Normals::youngs)));
   ways.push_back(plain("plic (myc)", one_thread(Placement::plic, Normals::myc)));
+  return ways;
+}
+
+std::vector<Way> all_ways() {
+  std::vector<Way> ways = placements_and_normals();
   ways.push_back({"linear (mollified)", mollified_linear});
   ways.push_back({"linear + laplacian", laplacian_linear});
   ways.push_back({"linear + taubin", taubin_linear});

@@ -18,7 +18,9 @@ struct Way {
 
 /// linear, manson and plic.
 [[nodiscard]] std::vector<Way> placements();
-/// The placements, and all that the library offers beside them.
+/// The placements, and plic with all other normals.
+[[nodiscard]] std::vector<Way> placements_and_normals();
+/// These, and all that the library offers beside them.
 [[nodiscard]] std::vector<Way> all_ways();
 /// Names of those that the golf ball is drawn by.
 [[nodiscard]] std::vector<std::string> golf_ball_ways();
