@@ -69,7 +69,8 @@ TEST_CASE("weld: every placement and normal") {
   const OwnedField field = test::white_noise({13, 12, 11}, 7);
   for (const Placement placement :
        {Placement::midpoint, Placement::linear, Placement::manson, Placement::plic}) {
-    for (const Normals normals : {Normals::youngs, Normals::myc, Normals::height_function}) {
+    for (const Normals normals : {Normals::youngs, Normals::myc, Normals::height_function,
+                                  Normals::elvira, Normals::lvira}) {
       Options options;
       options.placement = placement;
       options.normals = normals;

@@ -95,6 +95,8 @@ std::vector<Way> placements_and_normals() {
   std::vector<Way> ways = placements();
   ways.push_back(plain("plic (youngs)", one_thread(Placement::plic, Normals::youngs)));
   ways.push_back(plain("plic (myc)", one_thread(Placement::plic, Normals::myc)));
+  ways.push_back(plain("plic (elvira)", one_thread(Placement::plic, Normals::elvira)));
+  ways.push_back(plain("plic (lvira)", one_thread(Placement::plic, Normals::lvira)));
   return ways;
 }
 

@@ -31,7 +31,7 @@ void check_options(const Options& options) {
   if (options.threads < 0) {
     fail("options: threads must not be negative, got " + std::to_string(options.threads));
   }
-  if (options.placement > Placement::plic || options.normals > Normals::height_function) {
+  if (options.placement > Placement::plic || options.normals > Normals::lvira) {
     fail("options: unknown placement or normals");
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {

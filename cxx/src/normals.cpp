@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fitted_normals.hpp"
 #include "normal_stencil.hpp"
 #include "plane_fit.hpp"
 
@@ -42,6 +43,9 @@ NormalStencil<T>::NormalStencil(const BlockField& field, Normals normals)
 
 template <class T>
 UnitNormal NormalStencil<T>::operator()(const Index3& cell) const {
+  if (is_fitted(normals_)) {
+    return fitted_normal(field_, normals_, cell, NormalStencil(field_, Normals::myc)(cell));
+  }
   Neighbourhood hood;
   gather(cell, hood);
   Vec3 gradient = youngs(hood);

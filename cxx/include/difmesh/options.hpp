@@ -24,6 +24,11 @@ enum class Normals : std::uint8_t {
   /// 3x3 columns of 9 cells where consistent, myc elsewhere; cells at open sides without consistent
   /// columns get the plane that suits their neighbours' fractions best.
   height_function,
+  /// The plane whose fractions in 3x3x3 cells differ least, in squares, from those there, among 27
+  /// by differences of columns of 5 and myc's (after Pilliod & Puckett, J. Comput. Phys. 199 (2004)
+  /// 465). Exact for planes two cells away from open sides. Some 15 µs per cell.
+  elvira,
+  lvira,  ///< the same among all planes near myc's, by Gauss-Newton steps; exact for planes. 20 µs
 };
 
 /// What lies beyond a side of the domain.
