@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <map>
 #include <span>
 #include <string>
@@ -187,24 +188,25 @@ void write_sphere_pages(const Run& run, const Study& study, const Curves& found)
   run.write_page("sphere_curvatures", curvatures);
 }
 
-/// Distances and curvatures of `plic` by normals, at some numbers of cells.
-void write_normals_page(const Run& run, const Study& study, const Curves& found) {
-  std::vector<double> shown;
+/// Distances and curvatures of `plic` by kinds of normals.
+void run_normals(Run& run) {
+  Study study{Body::sphere(), {8, 16, 32, 64}, 10, kinds_of_normals()};
+  if (run.is_short) {
+    study.cells = {16};
+    study.places = 1;
+  }
+  const Curves found = curves(study, run.threads);
+  Table table(kHead);
+  add_rows(study, found, table);
+  run.write_csv("sphere_normals", table);
   std::vector<std::string> head{"normals"};
   for (const double cells : study.cells) {
-    if (std::exp2(std::round(std::log2(cells))) == cells) {
-      shown.push_back(cells);
-      head.push_back("R/dx = " + number(cells));
-    }
+    head.push_back("R/dx = " + number(cells));
   }
   Table page(head);
   for (const Way& way : study.ways) {
-    if (!way.name.starts_with("plic")) {
-      continue;
-    }
     std::vector<std::string> row{way.name};
-    for (const double cells : shown) {
-      const Errors& e = found.at(way.name).at(cells);
+    for (const auto& [cells, e] : found.at(way.name)) {
       row.push_back(pair_text(e.distance, cells) + "; " + number(e.mean_curvature.rms(), 3));
     }
     page.add(row);
@@ -212,7 +214,18 @@ void write_normals_page(const Run& run, const Study& study, const Curves& found)
   run.write_page("sphere_normals", page);
 }
 
-void write_ways_page(const Run& run, const Study& study, const Curves& found) {
+/// What smooths, beside the placements, at one number of cells.
+void run_smoothings(Run& run) {
+  Study study{Body::sphere(), {50}, 10, placements()};
+  std::ranges::copy(smoothings(), std::back_inserter(study.ways));
+  if (run.is_short) {
+    study.cells = {20};
+    study.places = 1;
+  }
+  const Curves found = curves(study, run.threads);
+  Table table(kHead);
+  add_rows(study, found, table);
+  run.write_csv("sphere_ways", table);
   Table page({"surface", "distance, dx", "mean distance, dx", "H, 1/R", "K, 1/R²"});
   for (const Way& way : study.ways) {
     const auto& [cells, e] = *found.at(way.name).begin();
@@ -240,27 +253,20 @@ void add_body_row(const Study& study, const Curves& found, double cells, Table& 
 }  // namespace
 
 void run_sphere(Run& run) {
-  Study study{
-      Body::sphere(), {8, 10, 12, 16, 20, 25, 32, 40, 50, 64, 128}, 100, placements_and_normals()};
-  Study other{Body::sphere(), {50}, 10, all_ways()};
+  Study study{Body::sphere(), {8, 10, 12, 16, 20, 25, 32, 40, 50, 64, 128}, 100, placements()};
   if (run.is_short) {
     study.cells = {8, 16, 32, 50};
     study.places = 3;
-    other.places = 1;
   }
   const Curves found = curves(study, run.threads);
   Table table(kHead);
   add_rows(study, found, table);
   run.write_csv("sphere", table);
   write_sphere_pages(run, study, found);
-  write_normals_page(run, study, found);
-  const Curves others = curves(other, run.threads);
-  Table other_table(kHead);
-  add_rows(other, others, other_table);
-  run.write_csv("sphere_ways", other_table);
-  write_ways_page(run, other, others);
   claim_sphere_distances(run, found);
   claim_sphere_curvatures(run, found);
+  run_normals(run);
+  run_smoothings(run);
 }
 
 void run_bodies(Run& run) {

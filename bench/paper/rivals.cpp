@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <numbers>
 
 #include "difmesh/curvature.hpp"
@@ -129,7 +130,9 @@ CurvatureFacts add_vtk_curvatures(std::int64_t n, const Sample& at, Table& table
 void smoothing(Run& run) {
   const Sample at = sample(Body::sphere(), cells_per_radius(kCells), 0, run.threads);
   Table table({"surface", "mean distance, dx", "rms, dx", "max, dx", "volume, %"});
-  for (const Way& one : all_ways()) {
+  std::vector<Way> ways = placements();
+  std::ranges::copy(smoothings(), std::back_inserter(ways));
+  for (const Way& one : ways) {
     add_smoothing_row(at, {one.name, one.surface(at)}, table);
   }
   const double swollen = swelling(at.body, way("linear + taubin").surface(at));
@@ -146,7 +149,7 @@ void curvatures(Run& run) {
   Table table({"N", "surface and curvature", "mean of R abs(H)", "rms of R abs(H) - 1"});
   std::vector<std::int64_t> sizes{128, 256, 512};
   if (run.is_short) {
-    sizes = {64, 128};
+    sizes = {48, 96};
   }
   std::vector<double> ours;
   [[maybe_unused]] std::vector<double> vtk;

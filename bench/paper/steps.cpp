@@ -151,7 +151,7 @@ void run_steps(Run& run) {
                                     {Normals::myc, 1e-12}};
   if (run.is_short) {
     for (Case& one : cases) {
-      one.cells = 40.0;
+      one.cells = one.body.unit == "R" ? 20.0 : 40.0;
       one.printed = "";
     }
     iterations = {{Normals::height_function, 1e-12}};

@@ -1,6 +1,7 @@
 #include "surfaces.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "difmesh/constrained_smoothing.hpp"
 #include "difmesh/mollify.hpp"
@@ -91,24 +92,21 @@ std::vector<Way> placements() {
           plain("plic", one_thread(Placement::plic))};
 }
 
-std::vector<Way> placements_and_normals() {
-  std::vector<Way> ways = placements();
-  ways.push_back(plain("plic (youngs)", one_thread(Placement::plic, Normals::youngs)));
-  ways.push_back(plain("plic (myc)", one_thread(Placement::plic, Normals::myc)));
-  ways.push_back(plain("plic (elvira)", one_thread(Placement::plic, Normals::elvira)));
-  ways.push_back(plain("plic (lvira)", one_thread(Placement::plic, Normals::lvira)));
-  return ways;
+std::vector<Way> kinds_of_normals() {
+  return {plain("plic", one_thread(Placement::plic)),
+          plain("plic (youngs)", one_thread(Placement::plic, Normals::youngs)),
+          plain("plic (myc)", one_thread(Placement::plic, Normals::myc)),
+          plain("plic (elvira)", one_thread(Placement::plic, Normals::elvira)),
+          plain("plic (lvira)", one_thread(Placement::plic, Normals::lvira))};
 }
 
-std::vector<Way> all_ways() {
-  std::vector<Way> ways = placements_and_normals();
-  ways.push_back({"linear (mollified)", mollified_linear});
-  ways.push_back({"linear + laplacian", laplacian_linear});
-  ways.push_back({"linear + taubin", taubin_linear});
-  ways.push_back({"linear + curvature flow", flow_linear});
-  ways.push_back(constrained_way("linear + constrained", Placement::linear));
-  ways.push_back(constrained_way("plic + constrained", Placement::plic));
-  return ways;
+std::vector<Way> smoothings() {
+  return {{"linear (mollified)", mollified_linear},
+          {"linear + laplacian", laplacian_linear},
+          {"linear + taubin", taubin_linear},
+          {"linear + curvature flow", flow_linear},
+          constrained_way("linear + constrained", Placement::linear),
+          constrained_way("plic + constrained", Placement::plic)};
 }
 
 std::vector<std::string> golf_ball_ways() {
@@ -117,7 +115,8 @@ std::vector<std::string> golf_ball_ways() {
 }
 
 Way way(const std::string& name) {
-  const std::vector<Way> ways = all_ways();
+  std::vector<Way> ways = placements();
+  std::ranges::copy(smoothings(), std::back_inserter(ways));
   return *std::ranges::find(ways, name, &Way::name);
 }
 

@@ -18,13 +18,13 @@ struct Way {
 
 /// linear, manson and plic.
 [[nodiscard]] std::vector<Way> placements();
-/// The placements, and plic with all other normals.
-[[nodiscard]] std::vector<Way> placements_and_normals();
-/// These, and all that the library offers beside them.
-[[nodiscard]] std::vector<Way> all_ways();
+/// plic with all kinds of normals, that of its default first.
+[[nodiscard]] std::vector<Way> kinds_of_normals();
+/// What smooths fields or surfaces.
+[[nodiscard]] std::vector<Way> smoothings();
 /// Names of those that the golf ball is drawn by.
 [[nodiscard]] std::vector<std::string> golf_ball_ways();
-/// \pre there is one of that name
+/// \pre a placement or smoothing has that name
 [[nodiscard]] Way way(const std::string& name);
 
 }  // namespace difmesh::paper
