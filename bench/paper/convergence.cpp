@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "errors.hpp"
-#include "parallel.hpp"
+#include "for_each_case.hpp"
 #include "run.hpp"
 #include "surfaces.hpp"
 

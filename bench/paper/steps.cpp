@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "difmesh/reconstruct.hpp"
-#include "parallel.hpp"
+#include "for_each_case.hpp"
 #include "run.hpp"
 #include "support/crossed_edges.hpp"
 
