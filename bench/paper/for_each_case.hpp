@@ -1,5 +1,5 @@
 #pragma once
-// Independent cases on several threads, and single vertices on the threads of one case.
+// Independent cases on several threads.
 
 #include <algorithm>
 #include <atomic>
