@@ -34,16 +34,6 @@ constexpr std::array<KnownFormat, 7> kFormats{{{".ply", MeshFormat::ply},
                                                {".gltf", MeshFormat::gltf},
                                                {".drc", MeshFormat::drc}}};
 
-std::optional<MeshFormat> format_of(const std::filesystem::path& path) {
-  const std::string extension = detail::extension_of(path);
-  for (const KnownFormat& known : kFormats) {
-    if (known.extension == extension) {
-      return known.format;
-    }
-  }
-  return std::nullopt;
-}
-
 void write_tables(const std::filesystem::path& path, const Mesh& mesh,
                   const WriteMeshOptions& options, MeshFormat format) {
   const bool stl = format == MeshFormat::stl;
@@ -72,11 +62,25 @@ void write_tables(const std::filesystem::path& path, const Mesh& mesh,
   file.commit();
 }
 
+Mesh read_tables(const std::filesystem::path& path, MeshFormat format) {
+  const detail::InputFile file(path);
+  switch (format) {
+    case MeshFormat::ply:
+      return detail::read_ply(file);
+    case MeshFormat::obj:
+      return detail::read_obj(file);
+    case MeshFormat::off:
+      return detail::read_off(file);
+    default:
+      return detail::read_stl(file);
+  }
+}
+
 }  // namespace
 
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh,
                 const WriteMeshOptions& options) {
-  const std::optional<MeshFormat> format = options.format ? options.format : format_of(path);
+  const std::optional<MeshFormat> format = options.format ? options.format : mesh_format_of(path);
   if (!format) {
     detail::fail_write(ErrorCode::invalid_argument, path,
                        "unknown extension '" + detail::extension_of(path) + "'; " + kKnown);
@@ -96,27 +100,31 @@ void write_mesh(const std::filesystem::path& path, const Mesh& mesh,
 }
 
 Mesh read_mesh(const std::filesystem::path& path) {
-  const std::optional<MeshFormat> format = format_of(path);
+  return read_scalar_mesh(path).mesh;
+}
+
+ScalarMesh read_scalar_mesh(const std::filesystem::path& path) {
+  const std::optional<MeshFormat> format = mesh_format_of(path);
   if (!format) {
     detail::fail_format(path, "unknown extension '" + detail::extension_of(path) + "'; " + kKnown);
   }
   if (*format == MeshFormat::glb || *format == MeshFormat::gltf) {
-    return read_gltf(path).mesh;
+    return read_gltf(path);
   }
   if (*format == MeshFormat::drc) {
-    return read_drc(path).mesh;
+    return read_drc(path);
   }
-  const detail::InputFile file(path);
-  switch (*format) {
-    case MeshFormat::ply:
-      return detail::read_ply(file);
-    case MeshFormat::obj:
-      return detail::read_obj(file);
-    case MeshFormat::off:
-      return detail::read_off(file);
-    default:
-      return detail::read_stl(file);
+  return {read_tables(path, *format), {}};
+}
+
+std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& path) {
+  const std::string extension = detail::extension_of(path);
+  for (const KnownFormat& known : kFormats) {
+    if (known.extension == extension) {
+      return known.format;
+    }
   }
+  return std::nullopt;
 }
 
 }  // namespace difmesh

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "difmesh/io/vertex_scalars.hpp"
 #include "difmesh/mesh.hpp"
 
 namespace difmesh {
@@ -59,5 +60,11 @@ void write_mesh(const std::filesystem::path& path, const Mesh& mesh,
 /// Cost: linear; memory is bounded by a small multiple of the file's size.
 /// Thread safety: concurrent calls are safe.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path);
+
+/// The same with the scalars that come with the vertices in glTF and Draco files.
+[[nodiscard]] ScalarMesh read_scalar_mesh(const std::filesystem::path& path);
+
+/// The format that the extension of a path, in any case of letters, stands for.
+[[nodiscard]] std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& path);
 
 }  // namespace difmesh
