@@ -1,7 +1,11 @@
 #include "mesh_scalars.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <utility>
 
+#include "difmesh/curvature.hpp"
 #include "names.hpp"
 #include "parse.hpp"
 #include "roughness.hpp"
@@ -19,11 +23,30 @@ Array<double> coordinate(const Mesh& mesh) {
   return values;
 }
 
-constexpr std::array<ScalarKind, 4> kKinds{
+/// Not a number where a vertex has no curvature; files and colours want numbers.
+Array<double> numbers(Array<double> values) {
+  for (double& value : values) {
+    value = std::isnan(value) ? 0.0 : value;
+  }
+  return values;
+}
+
+Array<double> mean_curvature(const Mesh& mesh) {
+  return numbers(curvature(mesh).mean);
+}
+
+Array<double> gaussian_curvature(const Mesh& mesh) {
+  return numbers(curvature(mesh).gaussian);
+}
+
+constexpr std::array<ScalarKind, 6> kKinds{
     {{"x", "coordinate", coordinate<0>},
      {"y", "coordinate", coordinate<1>},
      {"z", "coordinate", coordinate<2>},
-     {"angle", "largest angle between neighbouring facets, degrees", largest_angles}}};
+     {"angle", "largest angle between neighbouring facets, degrees", largest_angles},
+     {"mean_curvature", "positive where bodies are convex, 1 / length", mean_curvature},
+     {"gaussian_curvature", "the product of the principal ones, 1 / length^2",
+      gaussian_curvature}}};
 
 }  // namespace
 
@@ -31,8 +54,22 @@ std::span<const ScalarKind> scalar_kinds() {
   return kKinds;
 }
 
-VertexScalars scalars_of(const std::string& option, const std::string& name,
+std::vector<VertexScalars> curvature_scalars(const Mesh& mesh, const CurvatureOptions& options,
+                                             std::int64_t& undefined) {
+  Curvature fitted = curvature(mesh, options);
+  undefined = fitted.undefined_vertices;
+  return {{"mean_curvature", numbers(std::move(fitted.mean))},
+          {"gaussian_curvature", numbers(std::move(fitted.gaussian))}};
+}
+
+std::string scalars_name(std::string word) {
+  std::replace(word.begin(), word.end(), '-', '_');
+  return word;
+}
+
+VertexScalars scalars_of(const std::string& option, const std::string& word,
                          const ScalarMesh& surface) {
+  const std::string name = scalars_name(word);
   std::string known;
   for (const VertexScalars& scalars : surface.scalars) {
     if (scalars.name == name) {
@@ -46,7 +83,7 @@ VertexScalars scalars_of(const std::string& option, const std::string& name,
     }
     known += (&kind == &kKinds.front() ? "" : ", ") + std::string(kind.name);
   }
-  throw CLI::ValidationError(option, "'" + name + "' is none of " + known);
+  throw CLI::ValidationError(option, "'" + word + "' is none of " + known);
 }
 
 void add_colour_scale_options(CLI::App& command, ColourScale& scale) {

@@ -4,12 +4,14 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "difmesh/curvature.hpp"
 #include "difmesh/io/colour_map.hpp"
 #include "difmesh/io/vertex_scalars.hpp"
 
@@ -25,9 +27,17 @@ struct ScalarKind {
 /// All kinds that come from the mesh alone.
 [[nodiscard]] std::span<const ScalarKind> scalar_kinds();
 
+/// The name that a word of the command line stands for: '-' is read as '_'.
+[[nodiscard]] std::string scalars_name(std::string word);
+
+/// Mean and Gaussian curvature, 0 at vertices that have none, whose number is `undefined`.
+[[nodiscard]] std::vector<VertexScalars> curvature_scalars(const Mesh& mesh,
+                                                           const CurvatureOptions& options,
+                                                           std::int64_t& undefined);
+
 /// The scalars of that name: of the file that the mesh came from, or computed.
 /// \throw CLI::ValidationError naming the option, the word and what there is
-[[nodiscard]] VertexScalars scalars_of(const std::string& option, const std::string& name,
+[[nodiscard]] VertexScalars scalars_of(const std::string& option, const std::string& word,
                                        const ScalarMesh& surface);
 
 /// How numbers become colours, as far as the command line says.

@@ -30,10 +30,12 @@ inline constexpr std::array<Named<Placement>, 4> kPlacements{{{"midpoint", Place
                                                               {"manson", Placement::manson},
                                                               {"plic", Placement::plic}}};
 
-inline constexpr std::array<Named<Normals>, 3> kNormals{
+inline constexpr std::array<Named<Normals>, 5> kNormals{
     {{"youngs", Normals::youngs},
      {"myc", Normals::myc},
-     {"height_function", Normals::height_function}}};
+     {"height_function", Normals::height_function},
+     {"elvira", Normals::elvira},
+     {"lvira", Normals::lvira}}};
 
 inline constexpr std::array<Named<Side>, 5> kSides{{{"open", Side::open},
                                                     {"mirror", Side::mirror},
@@ -65,13 +67,15 @@ template <class Value, std::size_t n>
   return table[i].name;
 }
 
-/// What the library takes; see options.hpp.
+/// What the library takes; see options.hpp and mollify.hpp.
 inline constexpr Range kPurityToleranceRange{0.0, 0.1};
 inline constexpr Range kOvershootBoundRange{0.0, 1.0};
+inline constexpr Range kMollifyRange{1.0, 8.0};
 
 /// Extensions that the mesh and field files of difmesh::io have, in lower case.
 inline constexpr std::array<std::string_view, 7> kMeshExtensions{".ply", ".obj",  ".off", ".stl",
                                                                  ".glb", ".gltf", ".drc"};
+inline constexpr std::array<std::string_view, 1> kPlyExtensions{".ply"};
 inline constexpr std::array<std::string_view, 2> kGltfExtensions{".glb", ".gltf"};
 inline constexpr std::array<std::string_view, 1> kDracoExtensions{".drc"};
 inline constexpr std::array<std::string_view, 3> kFieldExtensions{".npy", ".nrrd", ".nhdr"};

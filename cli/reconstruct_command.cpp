@@ -5,9 +5,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "command.hpp"
 #include "difmesh/error.hpp"
+#include "difmesh/measure.hpp"
+#include "difmesh/mollify.hpp"
+#include "difmesh/normals.hpp"
 #include "difmesh/reconstruct.hpp"
 #include "field_input.hpp"
 #include "json.hpp"
@@ -15,6 +19,7 @@
 #include "names.hpp"
 #include "output_file.hpp"
 #include "parse.hpp"
+#include "smoothing.hpp"
 #include "stopwatch.hpp"
 #include "surface_output.hpp"
 #include "text.hpp"
@@ -35,7 +40,8 @@ constexpr const char* kFooter =
     "Examples:\n"
     "  difmesh reconstruct drops.nrrd -o drops.ply\n"
     "  difmesh reconstruct drops.npy -o drops.stl --spacing 0.01 --boundary mirror\n"
-    "  difmesh reconstruct drops.nrrd -o drops.glb --draco --color-by angle\n"
+    "  difmesh reconstruct drops.nrrd -o drops.glb --draco --color-by mean-curvature\n"
+    "  difmesh reconstruct drops.nrrd -o drops.ply --smooth constrained --curvature\n"
     "  difmesh reconstruct tank.npy -o tank.ply --spacing 0.01,0.01,0.02 \\\n"
     "      --boundary periodic,periodic,open,open,empty,open --report tank.json\n"
     "  difmesh reconstruct scan.raw -o scan.ply --raw-dims 256,256,128 --raw-type uint8\n"
@@ -49,6 +55,8 @@ struct Request {
   SurfaceOutput output;
   std::string report_path;
   Options options;
+  std::string mollify;  ///< empty: not asked for; "true": the usual radius; else a radius
+  std::optional<Smoothing> smoothing;
   bool quiet = false;
 
   [[nodiscard]] bool with_summary() const { return !quiet && report_path != "-"; }
@@ -70,7 +78,18 @@ std::optional<double> volume_difference(const Request& request, const Report& re
   return (report.enclosed_volume - report.fraction_volume) / report.fraction_volume;
 }
 
-Json options_json(const Options& options) {
+/// None where the field is taken as it is.
+std::optional<double> mollify_radius(const Request& request) {
+  if (request.mollify.empty()) {
+    return std::nullopt;
+  }
+  return request.mollify == "true" ? MollifyOptions{}.radius
+                                   : parse_number("--mollify", request.mollify, kMollifyRange);
+}
+
+Json options_json(const Request& request) {
+  const Options& options = request.options;
+  const std::optional<double> radius = mollify_radius(request);
   Json sides = Json::array();
   for (const Side side : options.sides) {
     sides.push_back(name_of(kSides, side));
@@ -82,6 +101,9 @@ Json options_json(const Options& options) {
           {"overshoot_bound", options.overshoot_bound},
           {"vertex_normals", options.vertex_normals},
           {"edge_ids", options.edge_ids},
+          {"curvature", request.output.curvature},
+          {"mollify", radius ? Json(*radius) : Json()},
+          {"smooth", request.smoothing ? Json(smoothing_text(*request.smoothing)) : Json()},
           {"threads", options.threads}};
 }
 
@@ -102,7 +124,7 @@ Json report_json(const Request& request, const LoadedField& field, const Reconst
                    {"clamped_cells", report.clamped_cells},
                    {"largest_overshoot", report.largest_overshoot},
                    {"fraction_volume", report.fraction_volume}};
-  json["options"] = options_json(request.options);
+  json["options"] = options_json(request);
   json["mesh"] = {{"path", request.output.path},
                   {"vertices", result.mesh.positions.size()},
                   {"triangles", result.mesh.triangles.size()},
@@ -166,20 +188,71 @@ void print_summary(const Request& request, const LoadedField& field, const Recon
                  ", write " + rounded(seconds.write, 3) + ")");
 }
 
+/// Of the field or, where asked for, of the field made smooth, of whose values the first that is out
+/// of bounds is to be named and not what smoothing made of it.
+Reconstruction reconstruct_field(const Request& request, const LoadedField& field,
+                                 const Options& options) {
+  const FieldView view = field.file.view();
+  const std::optional<double> radius = mollify_radius(request);
+  if (!radius) {
+    return reconstruct(view, field.grid, options);
+  }
+  static_cast<void>(interfacial_cells(view, field.grid, options));
+  MollifyOptions mollify_options;
+  mollify_options.radius = *radius;
+  mollify_options.sides = options.sides;
+  mollify_options.threads = options.threads;
+  const Array<double> smooth = mollify(view, mollify_options);
+  return reconstruct(FieldView::x_fastest(smooth.data(), field.grid.dims), field.grid, options);
+}
+
+void smooth(const Request& request, const LoadedField& field, Reconstruction& result) {
+  Mesh& mesh = result.mesh;
+  smooth_surface(*request.smoothing, {field.grid, request.options.threads}, mesh);
+  if (result.report.closed) {
+    result.report.enclosed_volume = measure(mesh).volume;
+  }
+  if (!request.options.edge_ids) {
+    mesh.edge_ids.clear();
+  }
+}
+
 /// The library knows cells and lengths, not files.
 Reconstruction reconstruct_file(const Request& request, const LoadedField& field,
                                 LongCall& long_call) {
   Options options = request.options;
   options.vertex_normals = options.vertex_normals || request.output.is_gltf();
+  options.edge_ids = options.edge_ids || request.smoothing.has_value();
   options.progress = long_call.progress();
   try {
-    return reconstruct(field.file.view(), field.grid, options);
+    Reconstruction result = reconstruct_field(request, field, options);
+    if (request.smoothing) {
+      smooth(request, field, result);
+    }
+    return result;
   } catch (const Error& error) {
     throw Error(error.code(), "'" + request.input.path + "': " + error.what());
   }
 }
 
+/// What is to be written with the vertices.
+std::vector<VertexScalars> scalars_for(const Request& request, const Mesh& mesh) {
+  if (!request.output.curvature) {
+    return {};
+  }
+  CurvatureOptions options;
+  options.threads = request.options.threads;
+  std::int64_t undefined = 0;
+  std::vector<VertexScalars> scalars = curvature_scalars(mesh, options, undefined);
+  if (undefined > 0 && !request.quiet) {
+    warn("'" + request.input.path + "': no curvature on parts that are too small, 0 is written: " +
+         std::to_string(undefined) + " of " + std::to_string(mesh.positions.size()) + " vertices");
+  }
+  return scalars;
+}
+
 void check_outputs(const Request& request) {
+  (void)mollify_radius(request);
   check_surface_output(request.output);
   check_output("--output", request.output.path, request.input.path);
   if (!request.report_path.empty()) {
@@ -197,15 +270,16 @@ void run(const Request& request) {
 
   LongCall long_call("reconstructing", request.quiet);
   const Reconstruction result = reconstruct_file(request, field, long_call);
-  seconds.reconstruct = watch.lap();
   long_call.done();
+  const std::vector<VertexScalars> scalars = scalars_for(request, result.mesh);
+  seconds.reconstruct = watch.lap();
 
   std::optional<OutputFile> report;
   if (!request.report_path.empty()) {
     report.emplace(request.report_path, to_text(report_json(request, field, result, seconds)));
   }
   const double cell = *std::min_element(field.grid.spacing.begin(), field.grid.spacing.end());
-  const std::string written = write_surface(request.output, result.mesh, cell);
+  const std::string written = write_surface(request.output, result.mesh, scalars, cell);
   if (report) {
     report->commit();
   }
@@ -245,7 +319,9 @@ void add_method_options(CLI::App& command, Request& request) {
           "How normals of cells are estimated, for plic and --vertex-normals:\n"
           "  height_function  heights over 3 x 3 columns, else myc (default)\n"
           "  myc              mixed Youngs-centred, 3 x 3 x 3 cells\n"
-          "  youngs           weighted gradient, 3 x 3 x 3 cells")
+          "  youngs           weighted gradient, 3 x 3 x 3 cells\n"
+          "  elvira           of 27 planes the one that suits the neighbours best\n"
+          "  lvira            the plane that suits the neighbours best")
       ->option_text("NAME");
   command
       .add_option_function<std::string>(
@@ -259,6 +335,27 @@ void add_method_options(CLI::App& command, Request& request) {
           "  empty     nothing: the surface is closed there\n"
           "  full      material: the surface of the empty part is closed there")
       ->option_text("SIDES");
+}
+
+void add_smoothing_options(CLI::App& command, Request& request) {
+  command
+      .add_flag("--mollify", request.mollify,
+                "Smooth the field first, with a kernel that ends at two cells, or at\n"
+                "RADIUS cells, 1 to 8")
+      ->option_text("[=RADIUS]");
+  command
+      .add_option_function<std::string>(
+          "--smooth",
+          [&request](const std::string& text) {
+            request.smoothing = parse_smoothing("--smooth", text);
+          },
+          "Smooth the surface; vertices move, triangles stay:\n"
+          "  laplacian[:STEPS]   to the neighbours' mean, 1 step; shrinks\n"
+          "  taubin[:STEPS]      to it and back by more, 15 steps; hardly shrinks\n"
+          "  flow[:TIME]         by mean curvature for a time of 1 spacing squared\n"
+          "  constrained[:TOL]   so that no cell's fraction changes by more than\n"
+          "                      0.01; closed surfaces only")
+      ->option_text("NAME[:NUMBER]");
 }
 
 void add_limit_options(CLI::App& command, Request& request) {
@@ -299,6 +396,7 @@ void add_reconstruct_command(CLI::App& program) {
       ->required()
       ->option_text("MESH");
   add_method_options(command, *request);
+  add_smoothing_options(command, *request);
   add_limit_options(command, *request);
   command.add_flag(
       "--vertex-normals", request->options.vertex_normals,

@@ -1,5 +1,6 @@
 #include "surface_output.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -36,15 +37,23 @@ std::string written(std::int64_t bytes, int bits, double error) {
   return text + ", coordinates off by " + rounded(error, 3) + " at most";
 }
 
-std::string write_as_gltf(const SurfaceOutput& output, const Mesh& mesh, double cell_size) {
+std::string write_as_gltf(const SurfaceOutput& output, const Mesh& mesh,
+                          const std::vector<VertexScalars>& scalars, double cell_size) {
   WriteGltfOptions options;
+  options.scalars = scalars;
   if (!output.draco.empty()) {
     options.draco = draco_options(output, cell_size);
   }
   if (!output.color_by.empty()) {
-    options.scalars.push_back(scalars_of("--color-by", output.color_by, {mesh, {}}));
-    options.colour = ColourBy{output.color_by, output.colours.map.value_or(ColourMap::viridis),
-                              output.colours.range};
+    const std::string name = scalars_name(output.color_by);
+    const bool is_there =
+        std::any_of(scalars.begin(), scalars.end(),
+                    [&name](const VertexScalars& one) { return one.name == name; });
+    if (!is_there) {
+      options.scalars.push_back(scalars_of("--color-by", output.color_by, {mesh, {}}));
+    }
+    options.colour =
+        ColourBy{name, output.colours.map.value_or(ColourMap::viridis), output.colours.range};
   }
   options.up = output.up.value_or(options.up);
   options.metres_per_unit = output.metres_per_unit.value_or(options.metres_per_unit);
@@ -82,7 +91,7 @@ std::string kinds_text() {
   std::string text;
   for (const ScalarKind& kind : scalar_kinds()) {
     text += "\n  " + std::string(kind.name);
-    text.resize(text.size() + (kind.name.size() < 7 ? 7 - kind.name.size() : 1), ' ');
+    text.resize(text.size() + (kind.name.size() < 20 ? 20 - kind.name.size() : 1), ' ');
     text += kind.meaning;
   }
   return text;
@@ -104,6 +113,8 @@ bool SurfaceOutput::is_gltf() const {
 }
 
 void add_surface_options(CLI::App& command, SurfaceOutput& output) {
+  command.add_flag("--curvature", output.curvature,
+                   "Write mean and Gaussian curvature with each vertex (.ply, .glb, .gltf, .drc)");
   add_draco_options(command, output);
   add_colour_options(command, output);
   command
@@ -139,6 +150,8 @@ void check_surface_output(const SurfaceOutput& output) {
   check(!output.draco.empty(), gltf || is_drc(output), "--draco", ".glb, .gltf nor .drc");
   check(output.draco_method.has_value(), draco, "--draco-method", ".drc nor is --draco given");
   check(output.draco_speed.has_value(), draco, "--draco-speed", ".drc nor is --draco given");
+  check(output.curvature, gltf || is_drc(output) || has_extension(output.path, kPlyExtensions),
+        "--curvature", ".ply, .glb, .gltf nor .drc");
   check(!output.color_by.empty(), gltf, "--color-by", ".glb nor .gltf");
   check(output.up.has_value(), gltf, "--up", ".glb nor .gltf");
   check(output.metres_per_unit.has_value(), gltf, "--metres-per-unit", ".glb nor .gltf");
@@ -153,17 +166,21 @@ void check_surface_output(const SurfaceOutput& output) {
   }
 }
 
-std::string write_surface(const SurfaceOutput& output, const Mesh& mesh, double cell_size) {
+std::string write_surface(const SurfaceOutput& output, const Mesh& mesh,
+                          const std::vector<VertexScalars>& scalars, double cell_size) {
   if (output.is_gltf()) {
-    return write_as_gltf(output, mesh, cell_size);
+    return write_as_gltf(output, mesh, scalars, cell_size);
   }
   if (is_drc(output)) {
     WriteDrcOptions options;
+    options.scalars = scalars;
     options.draco = draco_options(output, cell_size);
     const DracoReport report = write_drc(output.path, mesh, options);
     return written(report.bytes, report.position_bits, report.position_error);
   }
-  write_mesh(output.path, mesh);
+  WriteMeshOptions options;
+  options.scalars = scalars;
+  write_mesh(output.path, mesh, options);
   return "";
 }
 

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "difmesh/io/gltf_file.hpp"
 #include "difmesh/mesh.hpp"
@@ -18,6 +19,7 @@ struct SurfaceOutput {
   std::string draco;  ///< empty: not asked for; "true": the default bits; else bits
   std::optional<DracoMethod> draco_method;
   std::optional<int> draco_speed;
+  bool curvature = false;  ///< write it with each vertex
   std::string color_by;
   ColourScale colours;
   std::optional<UpAxis> up;
@@ -26,13 +28,14 @@ struct SurfaceOutput {
   [[nodiscard]] bool is_gltf() const;
 };
 
-/// Adds --draco and the others. `output` must outlive the parsing.
+/// Adds --draco, --curvature and the others. `output` must outlive the parsing.
 void add_surface_options(CLI::App& command, SurfaceOutput& output);
 /// \throw CLI::ValidationError for an unknown extension, and options that the format does not have
 void check_surface_output(const SurfaceOutput& output);
-/// Writes the mesh; \return size and error in words, for formats that have more to say.
+/// Writes the mesh with scalars; \return size and error in words, for formats that have more to say.
 /// \param cell_size Δx, for the choice of Draco's bits
 /// \throw Error
-std::string write_surface(const SurfaceOutput& output, const Mesh& mesh, double cell_size);
+std::string write_surface(const SurfaceOutput& output, const Mesh& mesh,
+                          const std::vector<VertexScalars>& scalars, double cell_size);
 
 }  // namespace difmesh::cli

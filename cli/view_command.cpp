@@ -32,9 +32,10 @@ constexpr const char* kDescription =
     "\n"
     "The page is one file with all that it needs; nothing is fetched when it is opened. It turns "
     "and\n"
-    "zooms, shows wireframes, and colours by numbers per vertex: those in the file and x, y, z "
-    "and\n"
-    "angle. Two surfaces are shown side by side or in turn. A field is reconstructed: linear and "
+    "zooms, shows wireframes, and colours by numbers per vertex: those in the file, x, y, z, the "
+    "angle\n"
+    "between facets and curvature. Two surfaces are shown side by side or in turn. A field is\n"
+    "reconstructed: linear and "
     "plic.\n";
 
 /// Browsers hold no longer text: Chromium's limit, which is the lowest.
@@ -86,18 +87,12 @@ Shown reconstructed(const LoadedField& field, const std::string& path, Placement
 }
 
 ScalarMesh read_surface(const std::string& path) {
-  if (has_extension(path, kGltfExtensions)) {
-    return read_gltf(path);
-  }
-  if (has_extension(path, kDracoExtensions)) {
-    return read_drc(path);
-  }
   if (!has_extension(path, kMeshExtensions)) {
     throw Error(ErrorCode::file_format, "'" + path + "': unknown extension; meshes are " +
                                             joined(kMeshExtensions) + ", fields " +
                                             joined(kFieldExtensions));
   }
-  return {read_mesh(path), {}};
+  return read_scalar_mesh(path);
 }
 
 /// A field alone gives two surfaces; beside another input it gives one.
@@ -177,7 +172,7 @@ Json scene_json(const Request& request, const std::vector<Shown>& shown) {
   const ColourMap map = request.colours.map.value_or(ColourMap::viridis);
   scene["colours"] = colour_table(map);
   scene["diverging"] = map == ColourMap::cool_warm;
-  scene["colorBy"] = request.color_by;
+  scene["colorBy"] = scalars_name(request.color_by);
   if (request.colours.range) {
     scene["range"] = *request.colours.range;
   }

@@ -5,9 +5,9 @@ if(DIFMESH_WARNINGS_AS_ERRORS)
   list(APPEND difmesh_warnings -Werror)
 endif()
 
-# Language level, warnings and sanitizers, for libraries, programs and tests alike. Contraction to
-# fused multiply-add is off: results must not depend on the instruction set.
-function(difmesh_set_up target)
+# Language level and warnings, for libraries, programs and tests alike. Contraction to fused
+# multiply-add is off: results must not depend on the instruction set.
+function(difmesh_set_up_unwatched target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES
     CXX_EXTENSIONS OFF
@@ -16,10 +16,22 @@ function(difmesh_set_up target)
     POSITION_INDEPENDENT_CODE ON)
   target_compile_options(${target} PRIVATE ${difmesh_warnings} -ffp-contract=off)
   if(DIFMESH_SANITIZE)
-    target_compile_options(${target} PRIVATE
-      -fsanitize=${DIFMESH_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
     target_link_options(${target} PUBLIC -fsanitize=${DIFMESH_SANITIZE})
   endif()
+endfunction()
+
+# The same, and sanitizers.
+function(difmesh_set_up target)
+  difmesh_set_up_unwatched(${target})
+  if(DIFMESH_SANITIZE)
+    target_compile_options(${target} PRIVATE
+      -fsanitize=${DIFMESH_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  endif()
+endfunction()
+
+# For targets whose own code takes longer to compile than it ever runs.
+function(difmesh_compile_fast target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
 # A library of the project: difmesh_<part>, seen by users as difmesh::<part>, installed as

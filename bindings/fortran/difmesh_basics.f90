@@ -9,7 +9,7 @@ module difmesh_basics
 
   public :: dif_init, dif_message, dif_name_of_status, dif_library_version
   ! For the other modules of this library.
-  public :: finish, refuse, no_room, to_c, address_of
+  public :: finish, refuse, no_room, to_c, from_c, address_of
 
   ! Prepares a struct, with the defaults of the library where it holds options. A library of another
   ! interface may refuse; struct_size then stays 0, and calls with the struct say so.
@@ -27,22 +27,26 @@ contains
   ! What went wrong in the last call of the library that failed on this thread; '' if none did.
   function dif_message() result(text)
     character(:), allocatable :: text
-    allocate (character(length_of(dif_last_message())) :: text)
-    call get_text(dif_last_message(), text)
+    text = from_c(dif_last_message())
   end function
 
   ! 'DIF_OK' and so on.
   function dif_name_of_status(status) result(text)
     integer(c_int32_t), intent(in) :: status
     character(:), allocatable :: text
-    allocate (character(length_of(dif_status_name(status))) :: text)
-    call get_text(dif_status_name(status), text)
+    text = from_c(dif_status_name(status))
   end function
 
   function dif_library_version() result(text)
     character(:), allocatable :: text
-    allocate (character(length_of(dif_version_text())) :: text)
-    call get_text(dif_version_text(), text)
+    text = from_c(dif_version_text())
+  end function
+
+  function from_c(text) result(copy)
+    type(c_ptr), intent(in) :: text
+    character(:), allocatable :: copy
+    allocate (character(length_of(text)) :: copy)
+    call get_text(text, copy)
   end function
 
   integer function length_of(text)
@@ -67,7 +71,7 @@ contains
     end do
   end subroutine
 
-  ! Paths, without the blanks that pad them, as in an open statement.
+  ! Paths and names, without the blanks that pad them, as in an open statement.
   pure function to_c(path) result(text)
     character(*), intent(in) :: path
     character(kind=c_char) :: text(len_trim(path) + 1)

@@ -118,6 +118,28 @@ module difmesh_c
       integer(c_int64_t), intent(in), optional :: ids(*)
     end function
 
+    integer(c_int32_t) function dif_mesh_set_scalars(mesh, name, values) bind(c)
+      import :: c_char, c_double, c_int32_t, c_ptr
+      type(c_ptr), value :: mesh
+      character(kind=c_char), intent(in) :: name(*)
+      real(c_double), intent(in), optional :: values(*)
+    end function
+
+    integer(c_int32_t) function dif_mesh_scalars_name(mesh, index, name) bind(c)
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: index
+      type(c_ptr), intent(inout) :: name
+    end function
+
+    integer(c_int32_t) function dif_mesh_scalars(mesh, name, values, vertices) bind(c)
+      import :: c_char, c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: mesh
+      character(kind=c_char), intent(in) :: name(*)
+      type(c_ptr), intent(inout) :: values
+      integer(c_int64_t), intent(inout) :: vertices
+    end function
+
     integer(c_int32_t) function dif_mesh_copy_positions(mesh, type, stride, capacity, out) bind(c)
       import :: c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: mesh

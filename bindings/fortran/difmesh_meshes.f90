@@ -1,7 +1,7 @@
 ! Triangle meshes.
 module difmesh_meshes
-  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_float, c_int32_t, &
-    c_int64_t, c_loc, c_null_ptr, c_ptr, c_sizeof
+  use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_float, &
+    c_int32_t, c_int64_t, c_loc, c_null_ptr, c_ptr, c_sizeof
   use difmesh_types
   use difmesh_c
   use difmesh_basics
@@ -35,6 +35,10 @@ module difmesh_meshes
     generic, public :: get_triangles => get_triangles_int32, get_triangles_int64
     procedure, public :: get_edge_ids
     procedure, public :: borrow_points
+    ! Numbers of your own that go with the vertices, by name.
+    procedure, public :: set_scalars
+    procedure, public :: get_scalars
+    procedure, public :: scalars_name
     ! Facts about it.
     procedure, public :: get_report
     procedure, public :: measure
@@ -110,7 +114,7 @@ contains
     call take(mesh, made, status)
   end subroutine
 
-  ! From .ply, .obj, .off or .stl.
+  ! From .ply, .obj, .off, .stl, .glb, .gltf or .drc.
   subroutine read_file(mesh, path, status, message)
     class(dif_mesh), intent(inout) :: mesh
     character(*), intent(in) :: path
@@ -175,6 +179,24 @@ contains
       call c_f_pointer(at, names, [count])
       status = dif_mesh_set_edge_ids(made, names)
     end if
+    call copy_scalars(mesh, from)
+  end subroutine
+
+  subroutine copy_scalars(mesh, from)
+    class(dif_mesh), intent(inout) :: mesh
+    type(dif_mesh), intent(in) :: from
+    character(:), allocatable :: name
+    real(c_double), allocatable :: values(:)
+    integer(c_int32_t) :: status
+    integer :: n
+    n = 1
+    do
+      name = from%scalars_name(n)
+      if (name == '') return
+      call from%get_scalars(name, values, status)
+      if (status == dif_ok) call mesh%set_scalars(name, values, status)
+      n = n + 1
+    end do
   end subroutine
 
   integer(c_int64_t) function vertex_count(mesh)
@@ -295,6 +317,54 @@ contains
     if (count > 0) call c_f_pointer(at, points, [3_c_int64_t, count])
   end function
 
+  ! Numbers that go with the vertices, values(n), in place of those of the same name; without
+  ! values these are removed. Names are letters, digits and underscores. glTF and Draco files take
+  ! scalars, and read() brings them.
+  subroutine set_scalars(mesh, name, values, status, message)
+    class(dif_mesh), intent(inout) :: mesh
+    character(*), intent(in) :: name
+    real(c_double), intent(in), optional :: values(:)
+    integer(c_int32_t), intent(out) :: status
+    character(*), intent(inout), optional :: message
+    if (present(values)) then
+      if (size(values, kind=c_int64_t) /= mesh%vertex_count()) then
+        call refuse('values must have one element per vertex', status, message)
+        return
+      end if
+    end if
+    call finish(dif_mesh_set_scalars(mesh%handle, to_c(name), values), status, message)
+  end subroutine
+
+  ! The scalars of a name; of size 0 if the mesh has none of it.
+  subroutine get_scalars(mesh, name, values, status, message)
+    class(dif_mesh), intent(in) :: mesh
+    character(*), intent(in) :: name
+    real(c_double), allocatable, intent(out) :: values(:)
+    integer(c_int32_t), intent(out) :: status
+    character(*), intent(inout), optional :: message
+    type(c_ptr) :: at
+    integer(c_int64_t) :: count
+    real(c_double), pointer :: numbers(:)
+    integer :: code
+    call finish(dif_mesh_scalars(mesh%handle, to_c(name), at, count), status, message)
+    if (status /= dif_ok) return
+    allocate (values(count), stat=code)
+    if (no_room(code, status, message) .or. count == 0) return
+    call c_f_pointer(at, numbers, [count])
+    values = numbers
+  end subroutine
+
+  ! The name of the scalars number `index`, from 1; '' from their count on.
+  function scalars_name(mesh, index) result(name)
+    class(dif_mesh), intent(in) :: mesh
+    integer, intent(in) :: index
+    character(:), allocatable :: name
+    type(c_ptr) :: text
+    name = ''
+    if (dif_mesh_scalars_name(mesh%handle, index - 1_c_int64_t, text) /= dif_ok) return
+    if (c_associated(text)) name = from_c(text)
+  end function
+
   ! Facts about a reconstruction.
   subroutine get_report(mesh, report, status, message)
     class(dif_mesh), intent(in) :: mesh
@@ -339,14 +409,28 @@ contains
       status, message)
   end subroutine
 
-  ! To .ply (double precision), .obj, .off or .stl.
-  subroutine write_file(mesh, path, status, options, message)
+  ! To .ply (double precision), .obj, .off, .stl, .glb, .gltf or .drc. `colour_by`, the name of
+  ! scalars, and `name` are for glTF, and come before those of the options.
+  subroutine write_file(mesh, path, status, options, message, colour_by, name)
     class(dif_mesh), intent(in) :: mesh
     character(*), intent(in) :: path
     integer(c_int32_t), intent(out) :: status
     type(dif_mesh_write_options), intent(in), optional :: options
     character(*), intent(inout), optional :: message
-    call finish(dif_mesh_write(mesh%handle, to_c(path), options), status, message)
+    character(*), intent(in), optional :: colour_by, name
+    type(dif_mesh_write_options) :: given
+    character(kind=c_char), allocatable, target :: scalars(:), title(:)
+    call dif_init(given)
+    if (present(options)) given = options
+    if (present(colour_by)) then
+      scalars = to_c(colour_by)
+      given%colour_by = c_loc(scalars)
+    end if
+    if (present(name)) then
+      title = to_c(name)
+      given%name = c_loc(title)
+    end if
+    call finish(dif_mesh_write(mesh%handle, to_c(path), given), status, message)
   end subroutine
 
   type(c_ptr) function c_handle(mesh)

@@ -84,6 +84,21 @@ module difmesh_types
     dif_mesh_format_drc = 7
 
   integer(c_int32_t), parameter, public :: &
+    dif_draco_default = 0, &
+    dif_draco_edgebreaker = 1, &
+    dif_draco_sequential = 2
+
+  integer(c_int32_t), parameter, public :: &
+    dif_colour_map_default = 0, &
+    dif_colour_map_viridis = 1, &
+    dif_colour_map_cool_warm = 2
+
+  integer(c_int32_t), parameter, public :: &
+    dif_up_default = 0, &
+    dif_up_y = 1, &
+    dif_up_z = 2
+
+  integer(c_int32_t), parameter, public :: &
     dif_field_format_by_extension = 0, &
     dif_field_format_npy = 1, &
     dif_field_format_nrrd = 2
@@ -283,6 +298,23 @@ module difmesh_types
     integer(c_int32_t) :: normals = 0
     integer(c_int32_t) :: edge_ids = 0
     integer(c_int32_t) :: reserved = 0
+    integer(c_int32_t) :: scalars = 0
+    integer(c_int32_t) :: draco = 0
+    integer(c_int32_t) :: draco_method = 0
+    integer(c_int32_t) :: draco_speed = 0
+    integer(c_int32_t) :: position_bits = 0
+    integer(c_int32_t) :: normal_bits = 0
+    integer(c_int32_t) :: generic_bits = 0
+    integer(c_int32_t) :: colour_map = 0
+    type(c_ptr) :: colour_by = c_null_ptr  ! easier: mesh%write(..., colour_by=...)
+    real(c_double) :: colour_range(2) = 0
+    real(c_double) :: cell_size = 0
+    real(c_double) :: metres_per_unit = 0
+    real(c_double) :: local_origin(3) = 0
+    integer(c_int32_t) :: has_local_origin = 0
+    integer(c_int32_t) :: up = 0
+    integer(c_int64_t) :: most_vertices = 0
+    type(c_ptr) :: name = c_null_ptr  ! likewise
   end type
 
   type, bind(c), public :: dif_raw_layout

@@ -1,27 +1,11 @@
 #include "convert.hpp"
 
-#include <array>
-
 namespace difmesh::capi {
 namespace {
 
 constexpr char kAxisNames[] = "xyz";
 // Three sums of offsets this large stay below 2^63.
 constexpr std::int64_t kMostOffset = std::int64_t{1} << 60;
-
-/// The C++ constant of a C one: 0 is the default, the others follow from 1 on.
-template <class Enum, std::size_t count>
-Enum to_choice(std::int32_t value, Enum default_value, const std::array<Enum, count>& choices,
-               const std::string& name) {
-  if (value == 0) {
-    return default_value;
-  }
-  if (value < 0 || value > static_cast<std::int32_t>(count)) {
-    fail_argument(name + " is " + std::to_string(value) + "; 0 to " + std::to_string(count) +
-                  " are possible");
-  }
-  return choices[static_cast<std::size_t>(value - 1)];
-}
 
 constexpr std::array kPlacements{Placement::midpoint, Placement::linear, Placement::manson,
                                  Placement::plic};

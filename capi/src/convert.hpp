@@ -1,6 +1,7 @@
 #pragma once
 // From the structs of C, checked, to those of C++.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -15,6 +16,20 @@ namespace difmesh::capi {
 
 /// \throw Error invalid_argument, naming the option
 [[nodiscard]] bool to_bool(std::int32_t value, const char* name);
+/// The C++ constant of a C one: 0 is the default, the others follow from 1 on.
+/// \throw Error invalid_argument, naming the option
+template <class Enum, std::size_t count>
+[[nodiscard]] Enum to_choice(std::int32_t value, Enum default_value,
+                             const std::array<Enum, count>& choices, const std::string& name) {
+  if (value == 0) {
+    return default_value;
+  }
+  if (value < 0 || value > static_cast<std::int32_t>(count)) {
+    fail_argument(name + " is " + std::to_string(value) + "; 0 to " + std::to_string(count) +
+                  " are possible");
+  }
+  return choices[static_cast<std::size_t>(value - 1)];
+}
 void require_zero(std::int32_t reserved, const char* struct_name);
 [[nodiscard]] ScalarType to_scalar_type(std::int32_t type);
 [[nodiscard]] std::int32_t from_scalar_type(ScalarType type);

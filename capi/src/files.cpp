@@ -1,12 +1,9 @@
 #include <algorithm>
-#include <optional>
-#include <string>
+#include <array>
 
 #include "boundary.hpp"
 #include "convert.hpp"
 #include "difmesh/io/field_file.hpp"
-#include "difmesh/io/mesh_file.hpp"
-#include "handles.hpp"
 
 namespace capi = difmesh::capi;
 
@@ -16,44 +13,17 @@ struct dif_field_file {
 
 namespace {
 
-/// The constant number `value` of an enumeration that counts from 1; 0 stands for none.
-template <class Enum>
-std::optional<Enum> to_format(std::int32_t value, Enum last) {
-  const std::int32_t most = static_cast<std::int32_t>(last) + 1;
-  if (value < 0 || value > most) {
-    capi::fail_argument("format is " + std::to_string(value) + "; 0 to " + std::to_string(most) +
-                        " are possible");
-  }
-  return value == 0 ? std::nullopt : std::optional(static_cast<Enum>(value - 1));
-}
-static_assert(static_cast<int>(difmesh::MeshFormat::ply) + 1 == DIF_MESH_FORMAT_PLY &&
-              static_cast<int>(difmesh::MeshFormat::obj) + 1 == DIF_MESH_FORMAT_OBJ &&
-              static_cast<int>(difmesh::MeshFormat::off) + 1 == DIF_MESH_FORMAT_OFF &&
-              static_cast<int>(difmesh::MeshFormat::stl) + 1 == DIF_MESH_FORMAT_STL &&
-              static_cast<int>(difmesh::MeshFormat::glb) + 1 == DIF_MESH_FORMAT_GLB &&
-              static_cast<int>(difmesh::MeshFormat::gltf) + 1 == DIF_MESH_FORMAT_GLTF &&
-              static_cast<int>(difmesh::MeshFormat::drc) + 1 == DIF_MESH_FORMAT_DRC &&
-              static_cast<int>(difmesh::FieldFormat::npy) + 1 == DIF_FIELD_FORMAT_NPY &&
-              static_cast<int>(difmesh::FieldFormat::nrrd) + 1 == DIF_FIELD_FORMAT_NRRD);
-
-difmesh::WriteMeshOptions to_options(const dif_mesh_write_options* options) {
-  dif_mesh_write_options defaults{};
-  dif_mesh_write_options_init(&defaults, sizeof defaults);
-  const dif_mesh_write_options given = capi::read_struct(options, defaults, "options");
-  capi::require_zero(given.reserved, "options");
-  difmesh::WriteMeshOptions result;
-  result.format = to_format(given.format, difmesh::MeshFormat::drc);
-  result.normals = capi::to_bool(given.normals, "normals");
-  result.edge_ids = capi::to_bool(given.edge_ids, "edge_ids");
-  return result;
-}
+constexpr std::array kFieldFormats{difmesh::FieldFormat::npy, difmesh::FieldFormat::nrrd};
 
 difmesh::WriteFieldOptions to_options(const dif_field_write_options* options) {
   dif_field_write_options defaults{};
   dif_field_write_options_init(&defaults, sizeof defaults);
   const dif_field_write_options given = capi::read_struct(options, defaults, "options");
   difmesh::WriteFieldOptions result;
-  result.format = to_format(given.format, difmesh::FieldFormat::nrrd);
+  if (given.format != DIF_FIELD_FORMAT_BY_EXTENSION) {
+    result.format =
+        capi::to_choice(given.format, difmesh::FieldFormat::npy, kFieldFormats, "format");
+  }
   if (given.type != 0) {
     result.type = capi::to_scalar_type(given.type);
   }
@@ -71,21 +41,6 @@ difmesh::RawLayout to_layout(const dif_raw_layout* layout) {
 }
 
 }  // namespace
-
-dif_status dif_mesh_write(const dif_mesh* mesh, const char* path,
-                          const dif_mesh_write_options* options) {
-  return capi::guarded([&] {
-    write_mesh(&capi::required(path, "path"), capi::required(mesh, "mesh").mesh,
-               to_options(options));
-  });
-}
-
-dif_status dif_mesh_read(const char* path, dif_mesh** mesh) {
-  return capi::guarded([&] {
-    dif_mesh*& handle = capi::out_handle(mesh, "mesh");
-    handle = new dif_mesh{difmesh::read_mesh(&capi::required(path, "path")), std::nullopt};
-  });
-}
 
 dif_status dif_field_read(const char* path, const dif_raw_layout* layout, dif_field_file** file) {
   return capi::guarded([&] {

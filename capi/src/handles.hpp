@@ -2,15 +2,28 @@
 // What the opaque handles hold.
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "difmesh/difmesh.h"
 #include "difmesh/mesh.hpp"
 #include "difmesh/reconstruct.hpp"
 #include "difmesh/shapes.hpp"
 
+namespace difmesh::capi {
+
+/// Numbers of the caller's own, one per vertex.
+struct Scalars {
+  std::string name;
+  Array<double> values;
+};
+
+}  // namespace difmesh::capi
+
 struct dif_mesh {
   difmesh::Mesh mesh;
-  std::optional<difmesh::Report> report;  ///< of meshes that a reconstruction made
+  std::optional<difmesh::Report> report = {};  ///< of meshes that a reconstruction made
+  std::vector<difmesh::capi::Scalars> scalars = {};
 };
 
 struct dif_shape {

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "boundary.hpp"
 #include "convert.hpp"
@@ -99,6 +101,19 @@ void copy_indices(const dif_mesh& mesh, std::int64_t first_vertex, const Room& r
   });
 }
 
+/// \throw Error for a name that files could not hold
+std::string scalars_name(const char* name) {
+  const std::string text = &capi::required(name, "name");
+  const auto is_good = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  if (text.empty() || !std::ranges::all_of(text, is_good)) {
+    capi::fail_argument("name is '" + text +
+                        "'; scalars have names of letters, digits and underscores");
+  }
+  return text;
+}
+
 }  // namespace
 
 void dif_mesh_free(dif_mesh* mesh) {
@@ -161,6 +176,52 @@ dif_status dif_mesh_set_edge_ids(dif_mesh* mesh, const uint64_t* ids) {
     difmesh::Mesh& target = capi::required(mesh, "mesh").mesh;
     const std::size_t count = ids == nullptr ? 0 : target.positions.size();
     target.edge_ids = Array<std::uint64_t>(ids, ids + count);
+  });
+}
+
+dif_status dif_mesh_set_scalars(dif_mesh* mesh, const char* name, const double* values) {
+  return capi::guarded([&] {
+    dif_mesh& target = capi::required(mesh, "mesh");
+    const std::string key = scalars_name(name);
+    const auto place = std::ranges::find(target.scalars, key, &capi::Scalars::name);
+    if (values == nullptr) {
+      if (place != target.scalars.end()) {
+        target.scalars.erase(place);
+      }
+      return;
+    }
+    Array<double> copied(values, values + target.mesh.positions.size());
+    if (place != target.scalars.end()) {
+      place->values = std::move(copied);
+    } else {
+      target.scalars.push_back({key, std::move(copied)});
+    }
+  });
+}
+
+dif_status dif_mesh_scalars_name(const dif_mesh* mesh, int64_t index, const char** name) {
+  return capi::guarded([&] {
+    const std::vector<capi::Scalars>& scalars = capi::required(mesh, "mesh").scalars;
+    capi::required(name, "name");
+    if (index < 0) {
+      capi::fail_argument("index is " + std::to_string(index) + "; it must not be negative");
+    }
+    const bool known = index < static_cast<std::int64_t>(scalars.size());
+    *name = known ? scalars[static_cast<std::size_t>(index)].name.c_str() : nullptr;
+  });
+}
+
+dif_status dif_mesh_scalars(const dif_mesh* mesh, const char* name, const double** values,
+                            int64_t* vertices) {
+  return capi::guarded([&] {
+    const std::vector<capi::Scalars>& scalars = capi::required(mesh, "mesh").scalars;
+    const std::string key = &capi::required(name, "name");
+    const auto place = std::ranges::find(scalars, key, &capi::Scalars::name);
+    if (place == scalars.end()) {
+      borrow(Array<double>{}, values, vertices, "values");
+    } else {
+      borrow(place->values, values, vertices, "values");
+    }
   });
 }
 

@@ -50,6 +50,12 @@ dif_status dif_mesh_write_options_init(dif_mesh_write_options* options, uint64_t
     dif_mesh_write_options value{};
     value.normals = 1;
     value.edge_ids = 1;
+    value.scalars = 1;
+    value.draco_speed = 5;
+    value.normal_bits = 10;
+    value.generic_bits = 12;
+    value.metres_per_unit = 1.0;
+    value.most_vertices = 0xFFFFFFFF;
     capi::write_struct(options, struct_size, value, "options");
   });
 }

@@ -161,6 +161,9 @@ GltfReport write_gltf_as(const std::filesystem::path& path, const Mesh& mesh,
 
 GltfReport write_gltf(const std::filesystem::path& path, const Mesh& mesh,
                       const WriteGltfOptions& options) {
+  if (options.binary) {
+    return detail::write_gltf_as(path, mesh, options, *options.binary);
+  }
   const std::string extension = detail::extension_of(path);
   if (extension != ".glb" && extension != ".gltf") {
     detail::fail_write(ErrorCode::invalid_argument, path,

@@ -13,6 +13,7 @@
 #include "input_file.hpp"
 #include "mesh_check.hpp"
 #include "mesh_formats.hpp"
+#include "packed_surface.hpp"
 #include "text.hpp"
 
 namespace difmesh {
@@ -34,16 +35,6 @@ constexpr std::array<KnownFormat, 7> kFormats{{{".ply", MeshFormat::ply},
                                                {".gltf", MeshFormat::gltf},
                                                {".drc", MeshFormat::drc}}};
 
-std::optional<MeshFormat> format_of(const std::filesystem::path& path) {
-  const std::string extension = detail::extension_of(path);
-  for (const KnownFormat& known : kFormats) {
-    if (known.extension == extension) {
-      return known.format;
-    }
-  }
-  return std::nullopt;
-}
-
 void write_tables(const std::filesystem::path& path, const Mesh& mesh,
                   const WriteMeshOptions& options, MeshFormat format) {
   const bool stl = format == MeshFormat::stl;
@@ -52,12 +43,16 @@ void write_tables(const std::filesystem::path& path, const Mesh& mesh,
     detail::fail_write(ErrorCode::too_large, path,
                        std::to_string(mesh.triangles.size()) + " triangles are too many for STL");
   }
+  detail::check_scalars(path, mesh, options.scalars);
+  if (format == MeshFormat::ply) {
+    detail::check_ply_names(path, options.scalars);
+  }
   const bool normals = options.normals && !mesh.normals.empty();
   const bool edge_ids = options.edge_ids && !mesh.edge_ids.empty();
   detail::AtomicFile file(path);
   switch (format) {
     case MeshFormat::ply:
-      detail::write_ply(file, mesh, normals, edge_ids);
+      detail::write_ply(file, mesh, {normals, edge_ids, options.scalars});
       break;
     case MeshFormat::obj:
       detail::write_obj(file, mesh, normals);
@@ -72,11 +67,25 @@ void write_tables(const std::filesystem::path& path, const Mesh& mesh,
   file.commit();
 }
 
+ScalarMesh read_tables(const std::filesystem::path& path, MeshFormat format) {
+  const detail::InputFile file(path);
+  switch (format) {
+    case MeshFormat::ply:
+      return detail::read_ply(file);
+    case MeshFormat::obj:
+      return {detail::read_obj(file), {}};
+    case MeshFormat::off:
+      return {detail::read_off(file), {}};
+    default:
+      return {detail::read_stl(file), {}};
+  }
+}
+
 }  // namespace
 
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh,
                 const WriteMeshOptions& options) {
-  const std::optional<MeshFormat> format = options.format ? options.format : format_of(path);
+  const std::optional<MeshFormat> format = options.format ? options.format : mesh_format_of(path);
   if (!format) {
     detail::fail_write(ErrorCode::invalid_argument, path,
                        "unknown extension '" + detail::extension_of(path) + "'; " + kKnown);
@@ -84,11 +93,15 @@ void write_mesh(const std::filesystem::path& path, const Mesh& mesh,
   switch (*format) {
     case MeshFormat::glb:
     case MeshFormat::gltf:
-      detail::write_gltf_as(path, mesh, {.normals = options.normals, .edge_ids = options.edge_ids},
-                            *format == MeshFormat::glb);
+      detail::write_gltf_as(
+          path, mesh,
+          {.normals = options.normals, .edge_ids = options.edge_ids, .scalars = options.scalars},
+          *format == MeshFormat::glb);
       break;
     case MeshFormat::drc:
-      write_drc(path, mesh, {.normals = options.normals, .edge_ids = options.edge_ids});
+      write_drc(
+          path, mesh,
+          {.normals = options.normals, .edge_ids = options.edge_ids, .scalars = options.scalars});
       break;
     default:
       write_tables(path, mesh, options, *format);
@@ -96,27 +109,31 @@ void write_mesh(const std::filesystem::path& path, const Mesh& mesh,
 }
 
 Mesh read_mesh(const std::filesystem::path& path) {
-  const std::optional<MeshFormat> format = format_of(path);
+  return read_scalar_mesh(path).mesh;
+}
+
+ScalarMesh read_scalar_mesh(const std::filesystem::path& path) {
+  const std::optional<MeshFormat> format = mesh_format_of(path);
   if (!format) {
     detail::fail_format(path, "unknown extension '" + detail::extension_of(path) + "'; " + kKnown);
   }
   if (*format == MeshFormat::glb || *format == MeshFormat::gltf) {
-    return read_gltf(path).mesh;
+    return read_gltf(path);
   }
   if (*format == MeshFormat::drc) {
-    return read_drc(path).mesh;
+    return read_drc(path);
   }
-  const detail::InputFile file(path);
-  switch (*format) {
-    case MeshFormat::ply:
-      return detail::read_ply(file);
-    case MeshFormat::obj:
-      return detail::read_obj(file);
-    case MeshFormat::off:
-      return detail::read_off(file);
-    default:
-      return detail::read_stl(file);
+  return read_tables(path, *format);
+}
+
+std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& path) {
+  const std::string extension = detail::extension_of(path);
+  for (const KnownFormat& known : kFormats) {
+    if (known.extension == extension) {
+      return known.format;
+    }
   }
+  return std::nullopt;
 }
 
 }  // namespace difmesh

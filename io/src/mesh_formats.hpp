@@ -13,18 +13,29 @@
 #include <vector>
 
 #include "atomic_file.hpp"
+#include "difmesh/io/vertex_scalars.hpp"
 #include "difmesh/mesh.hpp"
 #include "input_file.hpp"
 
 namespace difmesh::detail {
 
+/// What a PLY file holds beside positions and triangles.
+struct PlyContent {
+  bool normals = false;
+  bool edge_ids = false;
+  const std::vector<VertexScalars>& scalars;
+};
+
+/// \throw Error invalid_argument for scalars that are called like a property of the mesh
+void check_ply_names(const std::filesystem::path& path, const std::vector<VertexScalars>& scalars);
+
 /// The writers take a mesh whose indices, sizes and numbers were checked.
-void write_ply(AtomicFile& file, const Mesh& mesh, bool normals, bool edge_ids);
+void write_ply(AtomicFile& file, const Mesh& mesh, const PlyContent& content);
 void write_obj(AtomicFile& file, const Mesh& mesh, bool normals);
 void write_off(AtomicFile& file, const Mesh& mesh, bool normals);
 void write_stl(AtomicFile& file, const Mesh& mesh);
 
-[[nodiscard]] Mesh read_ply(const InputFile& file);
+[[nodiscard]] ScalarMesh read_ply(const InputFile& file);
 [[nodiscard]] Mesh read_obj(const InputFile& file);
 [[nodiscard]] Mesh read_off(const InputFile& file);
 [[nodiscard]] Mesh read_stl(const InputFile& file);

@@ -1,15 +1,18 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "difmesh/error.hpp"
+#include "mesh_check.hpp"
 #include "mesh_formats.hpp"
 #include "ply_header.hpp"
 #include "scanner.hpp"
@@ -34,6 +37,17 @@ class TextValues {
     }
   }
   double number(PlyType) { return lines_.number("a value"); }
+  /// Anything that is no number is NaN: the mesh does not need it.
+  double scalar(PlyType) {
+    const std::string_view word = lines_.word();
+    if (word.empty()) {
+      lines_.fail("a value is missing");
+    }
+    double number = 0.0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    const bool is_number = error == std::errc() && end == word.data() + word.size();
+    return is_number ? number : std::numeric_limits<double>::quiet_NaN();
+  }
   std::int64_t integer(PlyType) { return lines_.integer("an index or length"); }
   void skip(PlyType) {
     if (lines_.word().empty()) {
@@ -64,6 +78,7 @@ class BinaryValues {
   void begin_item() {}
   void end_item() {}
   double number(PlyType type) { return take<double>(type); }
+  double scalar(PlyType type) { return take<double>(type); }
   std::int64_t integer(PlyType type) { return take<std::int64_t>(type); }
   void skip(PlyType type) { (void)bytes(static_cast<std::size_t>(size_of(type))); }
   static constexpr std::int64_t smallest_size(PlyType type) { return size_of(type); }
@@ -113,14 +128,26 @@ class BinaryValues {
 /// What a property of a vertex is to a mesh.
 enum class Role : std::uint8_t { x, y, z, nx, ny, nz, id_low, id_high, none };
 
+constexpr std::array<std::string_view, 8> kNames{"x",  "y",  "z",           "nx",
+                                                 "ny", "nz", "edge_id_low", "edge_id_high"};
+
 Role role_of(const PlyProperty& property) {
-  constexpr std::array<std::string_view, 8> names{"x",  "y",  "z",           "nx",
-                                                  "ny", "nz", "edge_id_low", "edge_id_high"};
-  const auto* const found = std::find(names.begin(), names.end(), property.name);
-  const auto role = static_cast<Role>(found - names.begin());
+  const auto* const found = std::find(kNames.begin(), kNames.end(), property.name);
+  const auto role = static_cast<Role>(found - kNames.begin());
   const bool is_id = role == Role::id_low || role == Role::id_high;
   const bool fits = !property.length_type && (!is_id || property.type == PlyType::uint32);
   return fits ? role : Role::none;
+}
+
+/// Whether a property becomes scalars of the mesh: a float under a name that scalars may have, which
+/// colours (integers) and lists are not.
+bool is_scalar(const PlyProperty& property) {
+  const auto is_good = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  const bool is_taken = std::find(kNames.begin(), kNames.end(), property.name) != kNames.end();
+  return !property.length_type && !is_integer(property.type) && !is_taken &&
+         std::all_of(property.name.begin(), property.name.end(), is_good);
 }
 
 template <class Values>
@@ -132,7 +159,7 @@ class PlyReader {
         values_(path, header, text),
         size_(static_cast<std::int64_t>(text.size() - header.data_offset)) {}
 
-  Mesh read() {
+  ScalarMesh read() {
     for (const PlyElement& element : header_.elements) {
       check_count(element);
       if (element.name == "vertex") {
@@ -148,7 +175,8 @@ class PlyReader {
     if (!vertices_seen_) {
       fail_format(path_, "the PLY header has no element 'vertex'");
     }
-    return std::move(mesh_);
+    drop_what_is_no_number();
+    return {std::move(mesh_), std::move(scalars_)};
   }
 
  private:
@@ -180,6 +208,10 @@ class PlyReader {
     for (const PlyProperty& property : element.properties) {
       roles.push_back(role_of(property));
       ++seen[static_cast<std::size_t>(roles.back())];
+      scalars_of_.push_back(is_scalar(property) ? static_cast<int>(scalars_.size()) : -1);
+      if (is_scalar(property)) {
+        scalars_.push_back({property.name, {}});
+      }
     }
     if (vertices_seen_ || seen[0] != 1 || seen[1] != 1 || seen[2] != 1) {
       fail_format(path_, vertices_seen_ ? "two elements 'vertex'"
@@ -190,9 +222,28 @@ class PlyReader {
     mesh_.positions.resize(count);
     mesh_.normals.resize(seen[3] == 1 && seen[4] == 1 && seen[5] == 1 ? count : 0);
     mesh_.edge_ids.resize(seen[6] == 1 && seen[7] == 1 ? count : 0);
+    for (VertexScalars& scalars : scalars_) {
+      scalars.values.resize(count);
+    }
     for (std::size_t v = 0; v < count; ++v) {
       read_vertex(element, roles, v);
     }
+  }
+
+  /// Scalars are finite, and their names differ.
+  void drop_what_is_no_number() {
+    std::vector<VertexScalars> kept;
+    for (VertexScalars& scalars : scalars_) {
+      const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const VertexScalars& other) {
+        return other.name == scalars.name;
+      });
+      const bool is_finite = std::all_of(scalars.values.begin(), scalars.values.end(),
+                                         [](double value) { return std::isfinite(value); });
+      if (is_new && is_finite) {
+        kept.push_back(std::move(scalars));
+      }
+    }
+    scalars_ = std::move(kept);
   }
 
   void read_vertex(const PlyElement& element, const std::vector<Role>& roles, std::size_t v) {
@@ -202,7 +253,10 @@ class PlyReader {
     for (std::size_t p = 0; p < roles.size(); ++p) {
       const PlyProperty& property = element.properties[p];
       const auto role = static_cast<std::size_t>(roles[p]);
-      if (roles[p] == Role::none) {
+      if (scalars_of_[p] >= 0) {
+        scalars_[static_cast<std::size_t>(scalars_of_[p])].values[v] =
+            values_.scalar(property.type);
+      } else if (roles[p] == Role::none) {
         skip_property(property);
       } else if (role < numbers.size()) {
         numbers[role] = values_.number(property.type);
@@ -298,6 +352,8 @@ class PlyReader {
   bool vertices_seen_ = false;
   std::vector<std::uint32_t> corners_;
   Mesh mesh_;
+  std::vector<VertexScalars> scalars_;
+  std::vector<int> scalars_of_;  ///< which of them a property of the vertices is; -1: none
 };
 
 template <class T>
@@ -306,15 +362,18 @@ void put(AtomicFile& file, T value) {
   file.write(&value, sizeof value);
 }
 
-void write_header(AtomicFile& file, const Mesh& mesh, bool normals, bool edge_ids) {
+void write_header(AtomicFile& file, const Mesh& mesh, const PlyContent& content) {
   std::string header = "ply\nformat binary_little_endian 1.0\nelement vertex " +
                        std::to_string(mesh.positions.size()) +
                        "\nproperty double x\nproperty double y\nproperty double z\n";
-  if (normals) {
+  if (content.normals) {
     header += "property double nx\nproperty double ny\nproperty double nz\n";
   }
-  if (edge_ids) {
+  if (content.edge_ids) {
     header += "property uint edge_id_low\nproperty uint edge_id_high\n";
+  }
+  for (const VertexScalars& scalars : content.scalars) {
+    header += "property double " + scalars.name + "\n";
   }
   // Some readers know signed indices only: unsigned ones where nothing else holds them.
   const bool large = mesh.positions.size() >= std::size_t{1} << 31U;
@@ -324,7 +383,7 @@ void write_header(AtomicFile& file, const Mesh& mesh, bool normals, bool edge_id
 
 }  // namespace
 
-Mesh read_ply(const InputFile& file) {
+ScalarMesh read_ply(const InputFile& file) {
   const Array<char> bytes = file.read_text(0, file.size());
   const std::string_view text(bytes.data(), bytes.size());
   const PlyHeader header = parse_ply_header(file.path(), text);
@@ -339,18 +398,30 @@ Mesh read_ply(const InputFile& file) {
   return PlyReader<BinaryValues<false>>(file.path(), header, text).read();
 }
 
-void write_ply(AtomicFile& file, const Mesh& mesh, bool normals, bool edge_ids) {
-  write_header(file, mesh, normals, edge_ids);
+void check_ply_names(const std::filesystem::path& path, const std::vector<VertexScalars>& scalars) {
+  for (const VertexScalars& one : scalars) {
+    if (std::find(kNames.begin(), kNames.end(), one.name) != kNames.end()) {
+      fail_write(ErrorCode::invalid_argument, path,
+                 "the name '" + one.name + "' of scalars is taken by a property of the mesh");
+    }
+  }
+}
+
+void write_ply(AtomicFile& file, const Mesh& mesh, const PlyContent& content) {
+  write_header(file, mesh, content);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     for (const double coordinate : mesh.positions[v]) {
       put(file, coordinate);
     }
-    for (std::size_t axis = 0; normals && axis < 3; ++axis) {
+    for (std::size_t axis = 0; content.normals && axis < 3; ++axis) {
       put(file, mesh.normals[v][axis]);
     }
-    if (edge_ids) {
+    if (content.edge_ids) {
       put(file, static_cast<std::uint32_t>(mesh.edge_ids[v]));
       put(file, static_cast<std::uint32_t>(mesh.edge_ids[v] >> 32U));
+    }
+    for (const VertexScalars& scalars : content.scalars) {
+      put(file, scalars.values[v]);
     }
   }
   for (const Triangle& t : mesh.triangles) {

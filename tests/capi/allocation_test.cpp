@@ -210,6 +210,12 @@ TEST_CASE("a failed allocation anywhere is a status and leaks nothing") {
         return status;
       });
     }
+    const std::vector<double> numbers(test::mesh_of(f.sphere.get()).positions.size());
+    fail_each_allocation("dif_mesh_set_scalars", [&] {
+      const dif_status status = dif_mesh_set_scalars(f.sphere.get(), "numbers", numbers.data());
+      const dif_status removed = dif_mesh_set_scalars(f.sphere.get(), "numbers", nullptr);
+      return status == DIF_OK ? removed : status;
+    });
     for (const char* extension : {".npy", ".nrrd"}) {
       const std::string path = folder / (std::string("field") + extension);
       fail_each_allocation("dif_field_write",

@@ -5,10 +5,12 @@
 #include <doctest/doctest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "handles.hpp"
@@ -144,5 +146,192 @@ TEST_CASE("surfaces go into glTF and Draco files and back") {
     CHECK(facts.triangles == expected.triangles);
     CHECK(facts.closed == 1);
     CHECK(facts.volume == doctest::Approx(expected.volume).epsilon(1e-3));
+  }
+}
+
+namespace {
+
+// What a build without glTF or Draco says. The cases after it have nothing to look at there.
+bool is_written(const dif_mesh* mesh, const std::filesystem::path& path,
+                const dif_mesh_write_options* options = nullptr) {
+  const dif_status status = dif_mesh_write(mesh, path.c_str(), options);
+  const std::string message = dif_last_message();
+  if (status == DIF_ERROR_INVALID_ARGUMENT && message.find("built without") != std::string::npos) {
+    MESSAGE("skipped: " << message);
+    return false;
+  }
+  INFO(message);
+  REQUIRE(status == DIF_OK);
+  return true;
+}
+
+c::MeshHandle read_mesh(const std::filesystem::path& path) {
+  dif_mesh* mesh = nullptr;
+  const dif_status status = dif_mesh_read(path.c_str(), &mesh);
+  INFO(std::string(dif_last_message()));
+  REQUIRE(status == DIF_OK);
+  return c::MeshHandle(mesh);
+}
+
+std::vector<double> scalars_of(const c::MeshHandle& mesh, const char* name) {
+  const double* values = nullptr;
+  std::int64_t count = -1;
+  REQUIRE(dif_mesh_scalars(mesh.get(), name, &values, &count) == DIF_OK);
+  return {values, values + count};
+}
+
+std::vector<std::string> names_of(const c::MeshHandle& mesh) {
+  std::vector<std::string> names;
+  const char* name = nullptr;
+  for (std::int64_t index = 0;; ++index) {
+    REQUIRE(dif_mesh_scalars_name(mesh.get(), index, &name) == DIF_OK);
+    if (name == nullptr) {
+      return names;
+    }
+    names.emplace_back(name);
+  }
+}
+
+c::MeshHandle surface_with_heights() {
+  auto mesh = c::c_reconstruct(c::c_field(c::blob({12, 11, 10})));
+  std::vector<double> heights;
+  for (const difmesh::Vec3& position : c::mesh_of(mesh.get()).positions) {
+    heights.push_back(position[2]);
+  }
+  REQUIRE(dif_mesh_set_scalars(mesh.get(), "height", heights.data()) == DIF_OK);
+  return mesh;
+}
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  REQUIRE(a.size() == b.size());
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    largest = std::max(largest, std::abs(a[i] - b[i]));
+  }
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("scalars are the caller's until they are removed") {
+  const auto mesh = surface_with_heights();
+  std::vector<double> others(scalars_of(mesh, "height").size(), 2.5);
+  REQUIRE(dif_mesh_set_scalars(mesh.get(), "Other_1", others.data()) == DIF_OK);
+  others[0] = 7.0;  // they were copied
+  CHECK(names_of(mesh) == std::vector<std::string>{"height", "Other_1"});
+  CHECK(scalars_of(mesh, "Other_1") == std::vector<double>(others.size(), 2.5));
+  REQUIRE(dif_mesh_set_scalars(mesh.get(), "Other_1", others.data()) == DIF_OK);
+  CHECK(scalars_of(mesh, "Other_1") == others);
+  REQUIRE(dif_mesh_set_scalars(mesh.get(), "height", nullptr) == DIF_OK);
+  REQUIRE(dif_mesh_set_scalars(mesh.get(), "height", nullptr) == DIF_OK);
+  CHECK(names_of(mesh) == std::vector<std::string>{"Other_1"});
+  CHECK(scalars_of(mesh, "height").empty());
+}
+
+TEST_CASE("scalars go into glTF and Draco files and come back") {
+  const TempFolder folder;
+  const auto mesh = surface_with_heights();
+  const std::vector<double> heights = scalars_of(mesh, "height");
+  dif_mesh_write_options options = c::prepared(dif_mesh_write_options_init);
+  options.draco_method = DIF_DRACO_SEQUENTIAL;  // the order of the vertices is kept
+  const double range = *std::ranges::max_element(heights) - *std::ranges::min_element(heights);
+  for (const auto& [name, draco, bound] :
+       {std::tuple{"blob.glb", 0, 1e-6 * range}, std::tuple{"blob.gltf", 1, range / 8190.0 * 1.001},
+        std::tuple{"blob.drc", 0, range / 8190.0 * 1.001}}) {
+    options.draco = draco;
+    if (is_written(mesh.get(), folder / name, &options)) {
+      const auto again = read_mesh(folder / name);
+      CHECK(names_of(again) == std::vector<std::string>{"height"});
+      CHECK(largest_difference(scalars_of(again, "height"), heights) <= bound);
+    }
+  }
+  options.scalars = 0;
+  options.draco = 0;
+  if (is_written(mesh.get(), folder / "plain.glb", &options)) {
+    CHECK(names_of(read_mesh(folder / "plain.glb")).empty());
+  }
+  REQUIRE(dif_mesh_write(mesh.get(), (folder / "blob.ply").c_str(), nullptr) == DIF_OK);
+  CHECK(names_of(read_mesh(folder / "blob.ply")).empty());
+}
+
+TEST_CASE("Draco's options set the error and the size") {
+  const TempFolder folder;
+  const auto mesh = surface_with_heights();
+  const difmesh::Mesh before = c::mesh_of(mesh.get());
+  dif_measure facts = c::prepared(dif_measure_init);
+  REQUIRE(dif_mesh_measure(mesh.get(), &facts) == DIF_OK);
+  double side = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    side = std::max(side, facts.high[axis] - facts.low[axis]);
+  }
+  dif_mesh_write_options options = c::prepared(dif_mesh_write_options_init);
+  options.draco = 1;
+  options.draco_method = DIF_DRACO_SEQUENTIAL;
+  std::uintmax_t last = 0;
+  for (const std::int32_t bits : {6, 10, 16}) {
+    options.position_bits = bits;
+    if (!is_written(mesh.get(), folder / "blob.glb", &options)) {
+      return;
+    }
+    const difmesh::Mesh after = c::mesh_of(read_mesh(folder / "blob.glb").get());
+    REQUIRE(after.triangles == before.triangles);
+    double error = 0.0;
+    for (std::size_t v = 0; v < before.positions.size(); ++v) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        error = std::max(error, std::abs(after.positions[v][axis] - before.positions[v][axis]));
+      }
+    }
+    const double half_step = side / (2.0 * (std::exp2(bits) - 1.0));
+    CHECK(error <= half_step + 1e-6 * side);
+    CHECK(error >= 0.5 * half_step);
+    CHECK(std::filesystem::file_size(folder / "blob.glb") > last);
+    last = std::filesystem::file_size(folder / "blob.glb");
+  }
+  options.draco_method = DIF_DRACO_EDGEBREAKER;
+  REQUIRE(is_written(mesh.get(), folder / "small.glb", &options));
+  CHECK(std::filesystem::file_size(folder / "small.glb") < last);
+}
+
+TEST_CASE("glTF's options are in the file") {
+  const TempFolder folder;
+  const auto mesh = surface_with_heights();
+  dif_mesh_write_options options = c::prepared(dif_mesh_write_options_init);
+  options.format = DIF_MESH_FORMAT_GLTF;
+  options.colour_by = "height";
+  options.colour_map = DIF_COLOUR_MAP_COOL_WARM;
+  options.colour_range[0] = -3.5;
+  options.colour_range[1] = 6.25;
+  options.up = DIF_UP_Z;
+  options.metres_per_unit = 0.125;
+  options.has_local_origin = 1;
+  options.local_origin[0] = 4.5;
+  options.most_vertices = 100;
+  options.name = "a drop";
+  if (!is_written(mesh.get(), folder / "blob.any", &options)) {
+    return;
+  }
+  const std::string text = ::test::read_bytes(folder / "blob.any");
+  for (const char* word :
+       {"COLOR_0", "cool_warm", "-3.5", "6.25", "\"rotation\"", "[0.125,0.125,0.125]",
+        "[4.5,0.0,0.0]", "\"a drop\"", "_HEIGHT", "_VERTEX"}) {
+    INFO(std::string(word));
+    CHECK(text.find(word) != std::string::npos);
+  }
+  std::filesystem::rename(folder / "blob.any", folder / "blob.gltf");
+  const difmesh::Mesh again = c::mesh_of(read_mesh(folder / "blob.gltf").get());
+  CHECK(again.triangles == c::mesh_of(mesh.get()).triangles);
+}
+
+TEST_CASE("options of older and newer programs write meshes") {
+  const TempFolder folder;
+  const auto mesh = surface_with_heights();
+  dif_mesh_write_options old = c::prepared(dif_mesh_write_options_init);
+  old.struct_size = 24;
+  old.draco = 7;  // beyond its end
+  old.position_bits = -5;
+  REQUIRE(dif_mesh_write(mesh.get(), (folder / "blob.ply").c_str(), &old) == DIF_OK);
+  if (is_written(mesh.get(), folder / "old.glb", &old) &&
+      is_written(mesh.get(), folder / "new.glb")) {
+    CHECK(::test::read_bytes(folder / "old.glb") == ::test::read_bytes(folder / "new.glb"));
   }
 }

@@ -49,6 +49,8 @@ struct Bench {
   const std::uint32_t* words = nullptr;
   const std::uint64_t* ids = nullptr;
   std::int64_t count = 0;
+  const char* text = nullptr;
+  dif_mesh_write_options write_options = test::prepared(dif_mesh_write_options_init);
 
   Bench() {
     dif_shape* made = nullptr;
@@ -219,6 +221,23 @@ std::vector<Case> mesh_cases() {
            DIF_ERROR_TOO_LARGE),
       CALL("dif_mesh_set_normals", dif_mesh_set_normals(nullptr, b.numbers.data()), kArgument),
       CALL("dif_mesh_set_edge_ids", dif_mesh_set_edge_ids(nullptr, nullptr), kArgument),
+      CALL("dif_mesh_set_scalars", dif_mesh_set_scalars(nullptr, "a", b.numbers.data()), kArgument),
+      CALL("dif_mesh_set_scalars", dif_mesh_set_scalars(b.mesh.get(), nullptr, b.numbers.data()),
+           kArgument),
+      CALL("dif_mesh_set_scalars", dif_mesh_set_scalars(b.mesh.get(), "", b.numbers.data()),
+           kArgument),
+      CALL("dif_mesh_set_scalars", dif_mesh_set_scalars(b.mesh.get(), "a b", b.numbers.data()),
+           kArgument),
+      CALL("dif_mesh_set_scalars", dif_mesh_set_scalars(b.mesh.get(), "\xC3\xA4", nullptr),
+           kArgument),
+      CALL("dif_mesh_scalars_name", dif_mesh_scalars_name(nullptr, 0, &b.text), kArgument),
+      CALL("dif_mesh_scalars_name", dif_mesh_scalars_name(b.mesh.get(), -1, &b.text), kArgument),
+      CALL("dif_mesh_scalars_name", dif_mesh_scalars_name(b.mesh.get(), 0, nullptr), kArgument),
+      CALL("dif_mesh_scalars", dif_mesh_scalars(nullptr, "a", &b.doubles, &b.count), kArgument),
+      CALL("dif_mesh_scalars", dif_mesh_scalars(b.mesh.get(), nullptr, &b.doubles, &b.count),
+           kArgument),
+      CALL("dif_mesh_scalars", dif_mesh_scalars(b.mesh.get(), "a", nullptr, &b.count), kArgument),
+      CALL("dif_mesh_scalars", dif_mesh_scalars(b.mesh.get(), "a", &b.doubles, nullptr), kArgument),
       CALL("dif_mesh_copy_positions",
            dif_mesh_copy_positions(nullptr, DIF_FLOAT64, 3, 3000, b.numbers.data()), kArgument),
       CALL("dif_mesh_copy_positions",
@@ -499,6 +518,69 @@ std::vector<Case> distance_cases() {
   return cases;
 }
 
+dif_status write_mesh_to(Bench& b, const char* path) {
+  if (dif_has(DIF_PART_FILES) == 0) {
+    CHECK(dif_mesh_write(b.mesh.get(), path, &b.write_options) == DIF_ERROR_UNSUPPORTED);
+    return kArgument;
+  }
+  return dif_mesh_write(b.mesh.get(), path, &b.write_options);
+}
+dif_status write_glb(Bench& b) {
+  return write_mesh_to(b, "/nowhere/x.glb");
+}
+dif_status write_draco(Bench& b) {
+  b.write_options.draco = 1;
+  return write_mesh_to(b, "/nowhere/x.glb");
+}
+dif_status write_drc(Bench& b) {
+  return write_mesh_to(b, "/nowhere/x.drc");
+}
+dif_status write_coloured(Bench& b) {
+  REQUIRE(dif_mesh_set_scalars(b.mesh.get(), "height", b.numbers.data()) == DIF_OK);
+  b.write_options.colour_by = "height";
+  return write_mesh_to(b, "/nowhere/x.glb");
+}
+dif_status write_ply(Bench& b) {
+  return write_mesh_to(b, "/nowhere/x.ply");
+}
+
+std::vector<Case> write_cases() {
+  const char* const f = "dif_mesh_write";
+  return {
+    CHANGED(f, write_options.reserved = 1, kArgument, write_ply),
+        CHANGED(f, write_options.format = 8, kArgument, write_ply),
+        CHANGED(f, write_options.normals = 2, kArgument, write_ply),
+        CHANGED(f, write_options.edge_ids = -1, kArgument, write_ply),
+        CHANGED(f, write_options.scalars = 2, kArgument, write_ply),
+        CHANGED(f, write_options.draco = 1, kArgument, write_ply),
+        CHANGED(f, write_options.colour_by = "height", kArgument, write_ply),
+        CHANGED(f, write_options.up = DIF_UP_Z, kArgument, write_ply),
+        CHANGED(f, write_options.metres_per_unit = 0.001, kArgument, write_ply),
+        CHANGED(f, write_options.draco = 2, kArgument, write_glb),
+        CHANGED(f, write_options.colour_by = "height", kArgument, write_glb),
+        CHANGED(f, write_options.up = 3, kArgument, write_glb),
+        CHANGED(f, write_options.metres_per_unit = kNaN, kArgument, write_glb),
+        CHANGED(f, write_options.metres_per_unit = 0.0, kArgument, write_glb),
+        CHANGED(f, write_options.has_local_origin = 2, kArgument, write_glb),
+        CHANGED(f, write_options.has_local_origin = 1;
+                b.write_options.local_origin[1] = kInfinity, kArgument, write_glb),
+        CHANGED(f, write_options.most_vertices = 2, kArgument, write_glb),
+        CHANGED(f, write_options.most_vertices = std::numeric_limits<std::int64_t>::min(),
+                kArgument, write_glb),
+        CHANGED(f, write_options.draco_method = 3, kArgument, write_draco),
+        CHANGED(f, write_options.draco_speed = 11, kArgument, write_draco),
+        CHANGED(f, write_options.position_bits = 25, kArgument, write_draco),
+        CHANGED(f, write_options.position_bits = -1, kArgument, write_drc),
+        CHANGED(f, write_options.normal_bits = 1, kArgument, write_draco),
+        CHANGED(f, write_options.generic_bits = 0, kArgument, write_draco),
+        CHANGED(f, write_options.cell_size = -1.0, kArgument, write_draco),
+        CHANGED(f, write_options.cell_size = kNaN, kArgument, write_drc),
+        CHANGED(f, write_options.colour_map = 3, kArgument, write_coloured),
+        CHANGED(f, write_options.colour_range[0] = kNaN, kArgument, write_coloured),
+        CHANGED(f, write_options.colour_range[0] = 1.0, kArgument, write_coloured),
+  };
+}
+
 std::vector<Case> file_cases() {
   const bool has_files = dif_has(DIF_PART_FILES) == 1;
   const auto or_unsupported = [&](dif_status status) {
@@ -571,7 +653,7 @@ TEST_CASE("bad arguments give a status and a message at every function") {
   std::set<std::string> seen;
   std::size_t count = 0;
   for (const auto& cases : {field_cases(), mesh_cases(), plane_cases(), fraction_cases(),
-                            block_cases(), distance_cases(), file_cases()}) {
+                            block_cases(), distance_cases(), file_cases(), write_cases()}) {
     for (const Case& one : cases) {
       Bench bench;
       INFO(one.function << ": " << one.what);
@@ -583,7 +665,7 @@ TEST_CASE("bad arguments give a status and a message at every function") {
       ++count;
     }
   }
-  CHECK(count > 190);
+  CHECK(count > 230);
 
   // Those that cannot fail.
   dif_mesh_free(nullptr);

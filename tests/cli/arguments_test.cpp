@@ -114,7 +114,8 @@ TEST_CASE("wrong values of options exit with 2 and are named") {
   const std::vector<Wrong> cases{
       {{"--placement", "cubic"}, {"--placement", "'cubic'", "midpoint, linear, manson, plic"}},
       {{"--placement", ""}, {"--placement", "''"}},
-      {{"--normals", "elvira"}, {"--normals", "'elvira'", "youngs, myc, height_function"}},
+      {{"--normals", "swartz"},
+       {"--normals", "'swartz'", "youngs, myc, height_function, elvira, lvira"}},
       {{"--spacing", "1,2"}, {"--spacing", "'1,2'", "2 values"}},
       {{"--spacing", "1,2,3,4"}, {"--spacing", "4 values"}},
       {{"--spacing", "one"}, {"--spacing", "'one'"}},

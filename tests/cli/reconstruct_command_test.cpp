@@ -95,6 +95,8 @@ TEST_CASE("the mesh in the file is that of the library bit for bit") {
   }
   for (const auto& [name, normals] : {std::pair{"youngs", Normals::youngs},
                                       {"myc", Normals::myc},
+                                      {"elvira", Normals::elvira},
+                                      {"lvira", Normals::lvira},
                                       {"height_function", Normals::height_function}}) {
     options.normals = normals;
     check({"--normals", name}, options);

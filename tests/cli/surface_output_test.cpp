@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "difmesh/curvature.hpp"
 #include "difmesh/io/field_file.hpp"
 #include "difmesh/io/gltf_file.hpp"
 #include "difmesh/io/mesh_file.hpp"
@@ -69,6 +70,42 @@ double largest_difference(const difmesh::Array<Vec3>& a, const difmesh::Array<Ve
 }
 
 }  // namespace
+
+TEST_CASE("curvature reaches glTF and Draco and colours by it") {
+  const Place place;
+  const auto wanted = difmesh::curvature(place.wanted());
+  const auto largest = [](const difmesh::Array<double>& a, const difmesh::Array<double>& b) {
+    REQUIRE(a.size() == b.size());
+    double difference = 0.0;
+    for (std::size_t v = 0; v < a.size(); ++v) {
+      difference = std::max(difference, std::abs(a[v] - b[v]));
+    }
+    return difference;
+  };
+  const auto check = [&](const std::string& name, const Words& options, double tolerance) {
+    CAPTURE(name);
+    check_succeeds(place.reconstruct(name, options));
+    const ScalarMesh surface = difmesh::read_scalar_mesh(place.path(name));
+    REQUIRE(surface.scalars.size() == 2);
+    for (const auto& [scalars, values] : surface.scalars) {
+      CAPTURE(scalars);
+      const bool is_mean = scalars == "mean_curvature";
+      CHECK((is_mean || scalars == "gaussian_curvature"));
+      CHECK(largest(values, is_mean ? wanted.mean : wanted.gaussian) <
+            (is_mean ? 1.0 : 10.0) * tolerance);
+    }
+    CHECK(surface.scalars[0].name != surface.scalars[1].name);
+  };
+  check("m.glb", {"--curvature"}, 1e-5);
+  check("m.gltf", {"--curvature", "--color-by", "mean-curvature"}, 1e-5);
+  check("m.drc", {"--curvature", "--draco-method", "sequential"}, 1e-2);
+  // Alone, it is computed for the colours.
+  check_succeeds(place.reconstruct("c.glb", {"--color-by", "gaussian-curvature"}));
+  const ScalarMesh coloured = difmesh::read_gltf(place.path("c.glb"));
+  REQUIRE(coloured.scalars.size() == 1);
+  CHECK(coloured.scalars[0].name == "gaussian_curvature");
+  CHECK(largest(coloured.scalars[0].values, wanted.gaussian) < 1e-4);
+}
 
 TEST_CASE("reconstruct writes glb with normals and edge ids and colours") {
   const Place place;

@@ -82,8 +82,10 @@ TEST_CASE("view puts meshes with their scalars into one page") {
     }
     std::sort(names.begin(), names.end());
     const std::vector<std::string> wanted =
-        s == 0 ? std::vector<std::string>{"angle", "x", "y", "z"}
-               : std::vector<std::string>{"angle", "height", "x", "y", "z"};
+        s == 0 ? std::vector<std::string>{"angle", "gaussian_curvature", "mean_curvature", "x", "y",
+                                          "z"}
+               : std::vector<std::string>{
+                     "angle", "gaussian_curvature", "height", "mean_curvature", "x", "y", "z"};
     CHECK(names == wanted);
   }
   // One file: no script, style or picture comes from elsewhere.

@@ -108,6 +108,38 @@ TEST_CASE("write_mesh and read_mesh know glb and gltf and drc") {
   }
 }
 
+TEST_CASE("scalars come with the mesh from the formats that have them") {
+  const TempFolder folder;
+  const Mesh mesh = test::ball(8);
+  const VertexScalars scalars = heights(mesh);
+  difmesh::write_gltf(folder / "m.glb", mesh, {.scalars = {scalars}});
+  difmesh::write_drc(folder / "m.drc", mesh, {.scalars = {scalars}});
+  difmesh::write_mesh(folder / "m.ply", mesh);
+  for (const char* name : {"m.glb", "m.drc", "m.ply"}) {
+    CAPTURE(name);
+    const ScalarMesh back = difmesh::read_scalar_mesh(folder / name);
+    CHECK(back.mesh.positions.size() == mesh.positions.size());
+    const bool with_scalars = difmesh::mesh_format_of(name) != difmesh::MeshFormat::ply;
+    REQUIRE(back.scalars.size() == (with_scalars ? 1 : 0));
+    CHECK((!with_scalars || back.scalars[0].name == "height"));
+  }
+  CHECK(difmesh::mesh_format_of("a/b.GLTF") == difmesh::MeshFormat::gltf);
+  CHECK(!difmesh::mesh_format_of("a.glb/b"));
+}
+
+TEST_CASE("the format of glTF is that of the options or else of the extension") {
+  const TempFolder folder;
+  const Mesh mesh = test::ball(8);
+  difmesh::write_gltf(folder / "any", mesh, {.binary = true});
+  difmesh::write_gltf(folder / "m.glb", mesh);
+  CHECK(test::read_bytes(folder / "any") == test::read_bytes(folder / "m.glb"));
+  difmesh::write_gltf(folder / "m.glb", mesh, {.binary = false});
+  difmesh::write_gltf(folder / "m.gltf", mesh);
+  CHECK(test::read_bytes(folder / "m.glb") == test::read_bytes(folder / "m.gltf"));
+  test::check_error([&] { difmesh::write_gltf(folder / "m.ply", mesh); },
+                    ErrorCode::invalid_argument, {"m.ply", ".glb and .gltf"});
+}
+
 TEST_CASE("a small surface far from zero keeps its digits") {
   const TempFolder folder;
   const double spacing = 1e-3;

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from ctypes import byref, c_int64, c_void_p
+from ctypes import byref, c_char_p, c_int64, c_void_p
 from dataclasses import dataclass, fields
-from typing import Any, Optional
+from typing import Any, Mapping, Optional, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from ._calls import Handle
 from ._errors import check
-from ._library import defaults, library
+from ._library import library
 from ._memory import Path, address_of, from_address, path_bytes
-from ._options import choice
-from ._structs import DifMeasure, DifMeshWriteOptions, DifReport
-
-_FORMATS = {"ply": 1, "obj": 2, "off": 3, "stl": 4, "glb": 5, "gltf": 6, "drc": 7}
+from ._structs import DifMeasure, DifReport
+from ._write_options import text_bytes, to_write_options
 
 
 @dataclass(frozen=True)
@@ -118,9 +116,15 @@ class Mesh:
     _handle: Handle
 
     def __init__(
-        self, points: Any, faces: Any, normals: Any = None, edge_ids: Any = None
+        self,
+        points: Any,
+        faces: Any,
+        normals: Any = None,
+        edge_ids: Any = None,
+        scalars: Optional[Mapping[str, Any]] = None,
     ) -> None:
-        """Copies points (n, 3), faces (m, 3), and if given, normals (n, 3) and edge_ids (n,)."""
+        """Copies points (n, 3), faces (m, 3), and if given, normals (n, 3), edge_ids (n,) and
+        scalars, names to arrays (n,)."""
         positions = triples(points, "points")
         corners = indices(faces)
         self._handle = new_mesh_handle()
@@ -143,6 +147,18 @@ class Mesh:
             if ids.shape != (len(positions),):
                 raise ValueError(f"{len(positions)} points, but edge_ids of shape {ids.shape}")
             check(library.dif_mesh_set_edge_ids(self._handle.pointer, address_of(ids)))
+        for name, values in (scalars or {}).items():
+            numbers = np.require(values, np.float64, ["A", "C"])
+            if numbers.shape != (len(positions),):
+                raise ValueError(
+                    f"{len(positions)} points, but scalars {name!r} of shape {numbers.shape}"
+                )
+            # Not address_of(): NULL would remove, so that a bad name would go unnoticed.
+            check(
+                library.dif_mesh_set_scalars(
+                    self._handle.pointer, text_bytes(name, "name"), numbers.ctypes.data
+                )
+            )
 
     @classmethod
     def _from_handle(cls, handle: Handle) -> Mesh:
@@ -180,6 +196,26 @@ class Mesh:
         return array if len(array) else None
 
     @property
+    def scalars(self) -> dict[str, npt.NDArray[np.float64]]:
+        """Numbers that go with the points, (n,) by name: those that the mesh was made with, or that
+        came with its file."""
+        return {
+            key.decode(errors="replace"): self._borrow(
+                lambda mesh, *out, key=key: library.dif_mesh_scalars(mesh, key, *out), (), "f8"
+            )
+            for key in self._scalar_names()
+        }
+
+    def _scalar_names(self) -> list[bytes]:
+        names: list[bytes] = []
+        name = c_char_p()
+        while True:
+            check(library.dif_mesh_scalars_name(self._handle.pointer, len(names), byref(name)))
+            if name.value is None:
+                return names
+            names.append(name.value)
+
+    @property
     def report(self) -> Optional[Report]:
         """Facts about the reconstruction; None if another function made the mesh."""
         report = DifReport()
@@ -200,6 +236,21 @@ class Mesh:
         format: Optional[str] = None,
         normals: bool = True,
         edge_ids: bool = True,
+        scalars: Optional[Mapping[str, Any]] = None,
+        draco: Union[bool, int] = False,
+        draco_method: str = "edgebreaker",
+        draco_speed: int = 5,
+        normal_bits: int = 10,
+        generic_bits: int = 12,
+        cell_size: float = 0.0,
+        color_by: Optional[str] = None,
+        color_map: str = "viridis",
+        color_range: Optional[Sequence[float]] = None,
+        up: str = "y",
+        metres_per_unit: float = 1.0,
+        local_origin: Optional[Sequence[float]] = None,
+        most_vertices: Optional[int] = None,
+        name: Optional[str] = None,
     ) -> None:
         """Writes .ply (float64), .obj, .off, .stl, .glb, .gltf (float32) or .drc.
 
@@ -208,18 +259,42 @@ class Mesh:
         or "drc". Normals and names of edges are written where the mesh and the format have them,
         unless switched off. The file appears when it is complete; on an error nothing is left
         behind.
+
+        glTF and Draco files (.glb, .gltf, .drc):
+        scalars: names to arrays (n,) of numbers to write, besides those that the mesh has.
+        draco: True compresses glTF; a number, for .drc too, is that of bits per coordinate, 1 to
+        24. Without it there are as many as keep coordinates within a thousandth of `cell_size`, or
+        of the mean length of the triangles' edges if that is 0.
+        draco_method: "edgebreaker", smallest, or "sequential", which keeps the order of points and
+        faces. draco_speed: 0 small to 10 fast. normal_bits: 2 to 24. generic_bits: of scalars, 1 to
+        24.
+
+        glTF files (.glb, .gltf):
+        color_by: the name of scalars to colour by. color_map: "viridis", or "cool_warm", which
+        diverges from 0. color_range: values of the first and the last colour; all there are by
+        default. up: the axis that points up, "y" or "z". metres_per_unit: the unit of the points.
+        local_origin: what positions are relative to, by default the centre of their box.
+        most_vertices: of a primitive; larger meshes are split. name: of mesh and node.
         """
-        options = defaults(DifMeshWriteOptions, "dif_mesh_write_options_init")
-        options.format = choice(format, _FORMATS, "format") if format is not None else 0
-        options.normals = bool(normals)
-        options.edge_ids = bool(edge_ids)
-        check(library.dif_mesh_write(self._handle.pointer, path_bytes(path), byref(options)))
+        options = to_write_options(
+            draco, color_range, local_origin, format=format, normals=bool(normals),
+            edge_ids=bool(edge_ids), draco_method=draco_method, draco_speed=draco_speed,
+            normal_bits=normal_bits, generic_bits=generic_bits, cell_size=cell_size,
+            color_by=color_by, color_map=color_map, up=up, metres_per_unit=metres_per_unit,
+            most_vertices=most_vertices, name=name,
+        )  # fmt: skip
+        mesh = self._with_scalars(scalars) if scalars else self
+        check(library.dif_mesh_write(mesh._handle.pointer, path_bytes(path), byref(options)))
+
+    def _with_scalars(self, scalars: Mapping[str, Any]) -> Mesh:
+        both = {**self.scalars, **scalars}
+        return Mesh(self.points, self.faces, self.normals, self.edge_ids, both)
 
     def __repr__(self) -> str:
         return f"Mesh({len(self.points)} points, {len(self.faces)} faces)"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Mesh, (self.points, self.faces, self.normals, self.edge_ids)
+        return Mesh, (self.points, self.faces, self.normals, self.edge_ids, self.scalars)
 
 
 def read_mesh(path: Path) -> Mesh:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from ctypes import (
     CFUNCTYPE,
     Structure,
+    c_char_p,
     c_double,
     c_int32,
     c_int64,
@@ -251,6 +252,23 @@ class DifMeshWriteOptions(Sized):
         ("normals", c_int32),
         ("edge_ids", c_int32),
         ("reserved", c_int32),
+        ("scalars", c_int32),
+        ("draco", c_int32),
+        ("draco_method", c_int32),
+        ("draco_speed", c_int32),
+        ("position_bits", c_int32),
+        ("normal_bits", c_int32),
+        ("generic_bits", c_int32),
+        ("colour_map", c_int32),
+        ("colour_by", c_char_p),
+        ("colour_range", c_double * 2),
+        ("cell_size", c_double),
+        ("metres_per_unit", c_double),
+        ("local_origin", c_double * 3),
+        ("has_local_origin", c_int32),
+        ("up", c_int32),
+        ("most_vertices", c_int64),
+        ("name", c_char_p),
     ]
 
 

@@ -273,6 +273,20 @@ DIF_API dif_status dif_mesh_from_arrays(const double* positions, int64_t vertice
 DIF_API dif_status dif_mesh_set_normals(dif_mesh* mesh, const double* normals);
 DIF_API dif_status dif_mesh_set_edge_ids(dif_mesh* mesh, const uint64_t* ids);
 
+/* Scalars: numbers of your own that go with the vertices, under a name of letters, digits and
+ * underscores. Those of a file come with dif_mesh_read(); glTF and Draco files take them. */
+
+/* Gives a mesh scalars, one number per vertex, which are copied, in place of those of the same name.
+ * NULL removes these. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. Since 0.1. */
+DIF_API dif_status dif_mesh_set_scalars(dif_mesh* mesh, const char* name, const double* values);
+/* Borrowed: the name of the scalars number `index`, from 0; NULL from their count on. Errors:
+ * INVALID_ARGUMENT. Since 0.1. */
+DIF_API dif_status dif_mesh_scalars_name(const dif_mesh* mesh, int64_t index, const char** name);
+/* Borrowed: the scalars of a name; NULL and 0 if the mesh has none of it. Errors: INVALID_ARGUMENT.
+ * Since 0.1. */
+DIF_API dif_status dif_mesh_scalars(const dif_mesh* mesh, const char* name, const double** values,
+                                    int64_t* vertices);
+
 /* Element types of index arrays. */
 enum { DIF_INT32 = 11, DIF_UINT32 = 12, DIF_INT64 = 13 };
 
@@ -595,18 +609,60 @@ enum {
   DIF_MESH_FORMAT_DRC = 7   /* Draco: coordinates rounded to steps, the order changed */
 };
 
+/* How Draco orders a mesh. */
+enum {
+  DIF_DRACO_DEFAULT = 0,     /* EDGEBREAKER */
+  DIF_DRACO_EDGEBREAKER = 1, /* smallest; vertices and triangles come in another order */
+  DIF_DRACO_SEQUENTIAL = 2   /* keeps their order; some three times as large */
+};
+
+enum {
+  DIF_COLOUR_MAP_DEFAULT = 0,  /* VIRIDIS */
+  DIF_COLOUR_MAP_VIRIDIS = 1,  /* from dark blue over green to yellow */
+  DIF_COLOUR_MAP_COOL_WARM = 2 /* diverging: blue, grey at 0, red */
+};
+
+/* The axis of the mesh's coordinates that points up; in glTF that is y. */
+enum {
+  DIF_UP_DEFAULT = 0, /* Y */
+  DIF_UP_Y = 1,       /* coordinates are written as they are */
+  DIF_UP_Z = 2        /* a root node turns z up to y up; the coordinates below it are as they are */
+};
+
+/* "glTF" is .glb and .gltf; "Draco" is .drc, and glTF with `draco`. For other formats draco,
+ * colour_by, up and metres_per_unit must be left as they are, and the rest has no effect. */
 typedef struct dif_mesh_write_options {
   uint64_t struct_size;
-  int32_t format;   /* DIF_MESH_FORMAT_...; BY_EXTENSION */
-  int32_t normals;  /* 1, the default: write them, where mesh and format have them */
-  int32_t edge_ids; /* 1, the default: likewise */
-  int32_t reserved; /* 0 */
+  int32_t format;        /* DIF_MESH_FORMAT_...; BY_EXTENSION */
+  int32_t normals;       /* 1, the default: write them, where mesh and format have them */
+  int32_t edge_ids;      /* 1, the default: likewise */
+  int32_t reserved;      /* 0 */
+  int32_t scalars;       /* 1, the default: likewise, glTF and Draco */
+  int32_t draco;         /* 1: compress glTF, with KHR_draco_mesh_compression; default 0 */
+  int32_t draco_method;  /* DIF_DRACO_...; EDGEBREAKER */
+  int32_t draco_speed;   /* 0 small to 10 fast; 5 */
+  int32_t position_bits; /* Draco: 1 to 24; 0, the default: as many as keep coordinates within a
+                           * thousandth of cell_size */
+  int32_t normal_bits;   /* Draco: 2 to 24; 10, off by up to 0.25 degrees */
+  int32_t generic_bits;  /* Draco: of scalars, in steps of their range; 1 to 24; 12 */
+  int32_t colour_map;    /* glTF: DIF_COLOUR_MAP_...; VIRIDIS */
+  const char* colour_by; /* glTF: the name of scalars to colour by; NULL, the default: light grey */
+  double colour_range[2]; /* of the first and the last colour; 0, 0, the default: least and greatest
+                           * value, for COOL_WARM as far from 0 on both sides */
+  double cell_size;       /* Draco: >= 0; 0, the default: the mean length of the triangles' edges */
+  double metres_per_unit; /* glTF, whose unit is the metre: > 0; 1 */
+  double local_origin[3]; /* glTF: what positions are relative to, if has_local_origin */
+  int32_t has_local_origin; /* 0, the default: the centre of the bounding box */
+  int32_t up;               /* glTF: DIF_UP_...; Y */
+  int64_t most_vertices;    /* glTF: of a primitive, >= 3; 2^32 - 1. 65535: indices of 16 bits */
+  const char* name;         /* glTF: of mesh and node, in UTF-8; NULL, the default: "surface" */
 } dif_mesh_write_options;
 
 /* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
 DIF_API dif_status dif_mesh_write_options_init(dif_mesh_write_options* options,
                                                uint64_t struct_size);
-/* Errors: INVALID_ARGUMENT, INVALID_VALUE (a position that is not finite), TOO_LARGE, FILE_WRITE,
+/* Errors: INVALID_ARGUMENT (also for a format that this build lacks), INVALID_VALUE (a position or
+ * scalar that is not finite; for glTF and Draco a mesh without triangles), TOO_LARGE, FILE_WRITE,
  * STRUCT, OUT_OF_MEMORY. Since 0.1. */
 DIF_API dif_status dif_mesh_write(const dif_mesh* mesh, const char* path,
                                   const dif_mesh_write_options* options);

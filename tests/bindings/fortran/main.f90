@@ -14,6 +14,7 @@ program bindings_fortran_test
   call test_progress()
   call test_blocks()
   call test_mesh_files()
+  call test_scalars()
   call test_distance()
   if (failures > 0) error stop 'some expectations failed'
   print '(a)', 'all expectations hold'

@@ -7,6 +7,7 @@ module meshes_test
   implicit none
   private
   public :: test_arrays, test_results, test_progress, test_blocks, test_mesh_files, test_distance
+  public :: test_scalars
 
   integer :: calls = 0
 
@@ -176,6 +177,61 @@ contains
     call expect(status == dif_error_file_missing, 'no file')
     call expect_same(mesh, again, 'a mesh after a file that is not there')
     open (unit=11, file='meshes_test.ply')
+    close (11, status='delete')
+  end subroutine
+
+  subroutine test_scalars()
+    real(8), target :: c(24, 19, 21)
+    type(dif_mesh) :: mesh, copy
+    type(dif_mesh_write_options) :: options
+    real(8), allocatable :: points(:, :), values(:)
+    integer :: status
+    character(1000) :: message
+    c = ball(24, 19, 21)
+    call mesh%reconstruct(dif_view(c), status)
+    call mesh%get_points(points, status)
+    call expect(mesh%scalars_name(1) == '', 'no scalars')
+    call mesh%get_scalars('height', values, status)
+    call expect(status == dif_ok .and. size(values) == 0, 'none of that name')
+    call mesh%set_scalars('height  ', points(3, :), status)
+    call expect(status == dif_ok, 'scalars are set')
+    call mesh%set_scalars('depth', -points(3, :), status)
+    copy = mesh
+    call mesh%set_scalars('depth', status=status)
+    call expect(mesh%scalars_name(1) == 'height', 'what is left')
+    call expect(mesh%scalars_name(2) == '', 'and no more')
+    call expect(copy%scalars_name(2) == 'depth', 'copied')
+    call expect(copy%scalars_name(3) == '', 'those alone')
+    call copy%get_scalars('depth', values, status)
+    call expect(maxval(abs(values + points(3, :))) <= 0, 'their values')
+    call mesh%set_scalars('height', points(3, 2:), status, message)
+    call expect(status == dif_error_invalid_argument, 'too few: '//trim(message))
+    call mesh%set_scalars('no name', points(3, :), status, message)
+    call expect(status == dif_error_invalid_argument, 'a blank: '//trim(message))
+
+    if (dif_has(dif_part_files) == 0) return
+    message = ''
+    call mesh%write('scalars_test.glb', status, colour_by='height ', name='ball', message=message)
+    if (index(message, 'built without') > 0) return
+    call expect(status == dif_ok, 'written with colours: '//trim(message))
+    call copy%read('scalars_test.glb', status)
+    call copy%get_scalars('height', values, status)
+    call expect(maxval(abs(values - points(3, :))) < 2d-6, 'read again')
+    call dif_init(options)
+    options%draco = 1
+    options%draco_method = dif_draco_sequential
+    options%position_bits = 8
+    call mesh%write('scalars_test.glb', status, options, message)
+    if (index(message, 'built without') == 0) then
+      call copy%read('scalars_test.glb', status)
+      call copy%get_points(points, status)
+      call mesh%get_scalars('height', values, status)
+      call expect(maxval(abs(values - points(3, :))) < 13/510d0, 'within half a step')
+      call expect(maxval(abs(values - points(3, :))) > 10/1020d0, 'and compressed')
+    end if
+    call mesh%write('scalars_test.ply', status, options, message)
+    call expect(status == dif_error_invalid_argument, 'no Draco here: '//trim(message))
+    open (unit=11, file='scalars_test.glb')
     close (11, status='delete')
   end subroutine
 

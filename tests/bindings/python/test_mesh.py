@@ -1,6 +1,7 @@
 """Meshes: from fields, from arrays, from and to files; measures and distances of them."""
 
 import copy
+import json
 import math
 import os
 import pickle
@@ -250,20 +251,116 @@ class Files(unittest.TestCase):
         with open(self.path("ball.soap"), "rb") as one, open(self.path("plain.ply"), "rb") as two:
             self.assertEqual(one.read(), two.read())
 
+    def save_or_skip(self, mesh, file, **options):
+        try:
+            mesh.save(self.path(file), **options)
+        except difmesh.Error as error:
+            if "built without" not in str(error):
+                raise
+            self.skipTest(f"skipped: {error}")
+
     def test_gltf(self):
         """float32 about the mesh's centre."""
         mesh = difmesh.reconstruct(smooth_ball())
-        try:
-            mesh.save(self.path("ball.glb"))
-        except difmesh.Error as error:
-            if "built without glTF" not in str(error):
-                raise
-            self.skipTest(f"skipped: {error}")
+        self.save_or_skip(mesh, "ball.glb")
         with open(self.path("ball.glb"), "rb") as file:
             self.assertEqual(file.read(4), b"glTF")
         again = difmesh.read_mesh(self.path("ball.glb"))
         np.testing.assert_allclose(again.points, mesh.points, rtol=0, atol=1e-6)
         np.testing.assert_array_equal(again.faces, mesh.faces)
+
+    def test_scalars(self):
+        ball = difmesh.reconstruct(smooth_ball())
+        self.assertEqual(ball.scalars, {})
+        heights = ball.points[:, 2]
+        mesh = difmesh.Mesh(ball.points, ball.faces, scalars={"height": heights})
+        self.save_or_skip(mesh, "ball.glb", scalars={"Twice": 2 * heights})
+        np.testing.assert_array_equal(list(mesh.scalars), ["height"])  # the mesh is as it was
+        again = difmesh.read_mesh(self.path("ball.glb")).scalars
+        self.assertEqual(list(again), ["height", "twice"])
+        np.testing.assert_allclose(again["height"], heights, rtol=1e-6)
+        np.testing.assert_allclose(again["twice"], 2 * heights, rtol=1e-6)
+        for other in (pickle.loads(pickle.dumps(mesh)), copy.deepcopy(mesh)):
+            np.testing.assert_array_equal(other.scalars["height"], heights)
+        array = mesh.scalars["height"]
+        del mesh, other
+        np.testing.assert_array_equal(array, heights)  # it keeps its memory
+        with self.assertRaises(ValueError):
+            array[0] = 1
+
+    def test_draco(self):
+        mesh = difmesh.reconstruct(smooth_ball())
+        side = np.ptp(mesh.points, axis=0).max()
+        sizes = []
+        for bits in (8, 14):
+            self.save_or_skip(mesh, "ball.glb", draco=bits, draco_method="sequential")
+            again = difmesh.read_mesh(self.path("ball.glb"))
+            np.testing.assert_array_equal(again.faces, mesh.faces)
+            half_step = side / (2 * (2**bits - 1))
+            error = np.abs(again.points - mesh.points).max()
+            self.assertLess(error, half_step + 1e-6 * side)
+            self.assertGreater(error, half_step / 2)
+            sizes.append(os.path.getsize(self.path("ball.glb")))
+        self.assertLess(sizes[0], sizes[1])
+        mesh.save(self.path("ball.glb"), draco=14, draco_speed=0)
+        self.assertLess(os.path.getsize(self.path("ball.glb")), sizes[0])
+        mesh.save(self.path("ball.drc"), draco=8, cell_size=1.0)
+        mesh.save(self.path("fine.drc"), cell_size=0.01)
+        self.assertLess(
+            os.path.getsize(self.path("ball.drc")), os.path.getsize(self.path("fine.drc"))
+        )
+
+    def test_colours(self):
+        mesh = difmesh.reconstruct(smooth_ball())
+        self.save_or_skip(
+            mesh, "ball.gltf", scalars={"x": mesh.points[:, 0]}, color_by="x",
+            color_map="cool_warm", color_range=(-2.5, 30), up="z", metres_per_unit=0.25,
+            local_origin=(0, 0, 3.5), most_vertices=200, name="a ball",
+        )  # fmt: skip
+        with open(self.path("ball.gltf")) as file:
+            document = json.load(file)
+        (surface,) = document["meshes"]
+        self.assertEqual(surface["name"], "a ball")
+        self.assertGreater(len(surface["primitives"]), 2)
+        for primitive in surface["primitives"]:
+            self.assertTrue({"COLOR_0", "_X"} <= set(primitive["attributes"]))
+        text = json.dumps(document)
+        for words in ("cool_warm", "-2.5", '"scale": [0.25, 0.25, 0.25]', "[0.0, 0.0, 3.5]"):
+            self.assertIn(words, text)
+
+    def test_bad_write_options(self):
+        mesh = difmesh.Mesh(*CUBE)
+        self.save_or_skip(mesh, "cube.glb")
+        os.remove(self.path("cube.glb"))
+        for options in (
+            {"draco": 25},
+            {"draco": -1},
+            {"draco": 0},
+            {"draco_method": "best"},
+            {"draco": True, "draco_speed": 11},
+            {"draco": True, "normal_bits": 2**32 + 10},
+            {"color_by": "height"},
+            {"color_map": "jet"},
+            {"color_range": (0, 0)},
+            {"color_range": (1, 2, 3)},
+            {"up": "x"},
+            {"metres_per_unit": 0},
+            {"local_origin": (0, math.nan, 0)},
+            {"most_vertices": 2},
+            {"name": "a\0b"},
+            {"scalars": {"a b": np.zeros(8)}},
+            {"scalars": {"": np.zeros(8)}},
+            {"scalars": {"a\0b": np.zeros(8)}},
+            {"scalars": {"a": np.zeros(7)}},
+            {"scalars": {"a": np.full(8, math.nan)}},
+            {"scalars": {"a": np.zeros(8), "A": np.zeros(8)}},
+        ):
+            with self.assertRaises(ValueError, msg=options):
+                mesh.save(self.path("cube.glb"), **options)
+        for options in ({"draco": True}, {"color_by": "a"}, {"up": "z"}, {"metres_per_unit": 2}):
+            with self.assertRaises(difmesh.InvalidArgumentError, msg=options):
+                mesh.save(self.path("cube.ply"), **options)
+        self.assertEqual(os.listdir(self.folder), [])
 
     def test_what_fails(self):
         mesh = difmesh.Mesh(*CUBE)

@@ -49,6 +49,8 @@ struct WriteGltfOptions {
   /// 3. 65535 gives indices of 16 bits throughout, for viewers that have no others.
   std::int64_t most_vertices = 0xFFFFFFFF;
   std::string name = "surface";  ///< of mesh and node; UTF-8
+  /// Write .glb, or .gltf; by the extension of the path if not set.
+  std::optional<bool> binary = {};
 };
 
 struct GltfReport {

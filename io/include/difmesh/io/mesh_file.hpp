@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
+#include "difmesh/io/vertex_scalars.hpp"
 #include "difmesh/mesh.hpp"
 
 namespace difmesh {
@@ -13,7 +15,8 @@ namespace difmesh {
 /// What each format keeps of a mesh when written and read again. Meshes need not be manifold.
 enum class MeshFormat : std::uint8_t {
   ply,  ///< binary little endian; positions, normals and triangles bit for bit, and edge ids as two
-        ///< vertex properties `edge_id_low` and `edge_id_high`, as PLY has no integers of 64 bits
+        ///< vertex properties `edge_id_low` and `edge_id_high`, as PLY has no integers of 64 bits;
+        ///< scalars as vertex properties of their names
   obj,  ///< text; positions and normals bit for bit
   off,  ///< text; positions and, as NOFF, normals bit for bit
   stl,  ///< binary; positions rounded to float32 by the format, nothing shared between triangles
@@ -27,6 +30,9 @@ struct WriteMeshOptions {
   std::optional<MeshFormat> format = {};  ///< by the extension of the path if not set
   bool normals = true;   ///< write vertex normals, where the mesh and the format have them
   bool edge_ids = true;  ///< write edge ids, where the mesh and the format have them
+  /// Each with one value per vertex. PLY holds them as float64, glTF and Draco as float32; the other
+  /// formats have no place for them. Finite, and within the range of float32.
+  std::vector<VertexScalars> scalars = {};
 };
 
 /// Writes a mesh. The file appears under its name when it is complete and not before; on failure
@@ -45,7 +51,7 @@ void write_mesh(const std::filesystem::path& path, const Mesh& mesh,
 /// Reads a mesh; the extension of the path, in any case of letters, tells the format. Vertices and
 /// faces keep their order; polygons become fans of triangles about their first corner. For glTF and
 /// Draco see read_gltf() and read_drc().
-/// - PLY, text or binary of either byte order: other elements and properties are skipped.
+/// - PLY, text or binary of either byte order: other elements are skipped.
 /// - OBJ: normals are taken where every corner `v//n` has n = v; groups, materials and texture
 ///   coordinates are skipped.
 /// - OFF, text: with its prefixes C, N and ST; colours and texture coordinates are skipped.
@@ -59,5 +65,12 @@ void write_mesh(const std::filesystem::path& path, const Mesh& mesh,
 /// Cost: linear; memory is bounded by a small multiple of the file's size.
 /// Thread safety: concurrent calls are safe.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path);
+
+/// The same with the scalars that come with the vertices in glTF, Draco and PLY files. In PLY these
+/// are the float properties of vertices that are no positions or normals, where all are finite.
+[[nodiscard]] ScalarMesh read_scalar_mesh(const std::filesystem::path& path);
+
+/// The format that the extension of a path, in any case of letters, stands for.
+[[nodiscard]] std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& path);
 
 }  // namespace difmesh
