@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Measures what the paper measures (Evrard, Denner, van Wachem, IEEE TVCG 2019): sets up a Debian 12 machine,
 # builds, runs all its bodies with all ways to a surface, and draws the figures.
-#   paper.sh                all of it: half an hour or so on two cores
+#   paper.sh                all of it: a quarter of an hour on two cores
 #   paper.sh --short        fewer cells, places and ways: a minute
 #   paper.sh --out DIR      where to: tables (.csv, .md), plots (.svg) and pictures (.jpg); default paper-out
 #   paper.sh --mesh FILE    a closed mesh instead of the bunny of ../shared/data; without either it is left out
