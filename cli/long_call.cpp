@@ -25,8 +25,14 @@ double seconds_now() {
 
 }  // namespace
 
-LongCall::LongCall(const std::string& label, bool quiet) {
-  if (!quiet && ::isatty(STDERR_FILENO) == 1) {
+LongCall::LongCall(const std::string& label, bool quiet)
+    : with_bar_(!quiet && ::isatty(STDERR_FILENO) == 1) {
+  next(label);
+}
+
+void LongCall::next(const std::string& label) {
+  done();
+  if (with_bar_) {
     bar_.emplace(std::cerr, label, terminal_columns(), &seconds_now);
   }
 }

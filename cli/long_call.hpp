@@ -18,6 +18,8 @@ class LongCall {
  public:
   LongCall(const std::string& label, bool quiet);
 
+  /// The call before is done; what comes is called otherwise. \throw as done()
+  void next(const std::string& label);
   /// To give to the call. Valid as long as this object.
   [[nodiscard]] Progress progress();
   /// Takes the bar away. \throw Error cancelled if a signal came since the last progress
@@ -25,6 +27,7 @@ class LongCall {
 
  private:
   InterruptGuard guard_;
+  bool with_bar_;
   std::optional<ProgressBar> bar_;
 };
 

@@ -191,24 +191,32 @@ void print_summary(const Request& request, const LoadedField& field, const Recon
 /// Of the field or, where asked for, of the field made smooth, of whose values the first that is out
 /// of bounds is to be named and not what smoothing made of it.
 Reconstruction reconstruct_field(const Request& request, const LoadedField& field,
-                                 const Options& options) {
+                                 const Options& options, LongCall& long_call) {
   const FieldView view = field.file.view();
   const std::optional<double> radius = mollify_radius(request);
   if (!radius) {
     return reconstruct(view, field.grid, options);
   }
-  static_cast<void>(interfacial_cells(view, field.grid, options));
+  long_call.next("mollifying");
+  Options checked = options;
+  checked.progress = {};
+  static_cast<void>(interfacial_cells(view, field.grid, checked));
   MollifyOptions mollify_options;
   mollify_options.radius = *radius;
   mollify_options.sides = options.sides;
   mollify_options.threads = options.threads;
+  mollify_options.progress = long_call.progress();
   const Array<double> smooth = mollify(view, mollify_options);
+  long_call.next("reconstructing");
   return reconstruct(FieldView::x_fastest(smooth.data(), field.grid.dims), field.grid, options);
 }
 
-void smooth(const Request& request, const LoadedField& field, Reconstruction& result) {
+void smooth(const Request& request, const LoadedField& field, LongCall& long_call,
+            Reconstruction& result) {
   Mesh& mesh = result.mesh;
-  smooth_surface(*request.smoothing, {field.grid, request.options.threads}, mesh);
+  long_call.next("smoothing");
+  smooth_surface(*request.smoothing, {field.grid, request.options.threads, long_call.progress()},
+                 mesh);
   if (result.report.closed) {
     result.report.enclosed_volume = measure(mesh).volume;
   }
@@ -225,9 +233,9 @@ Reconstruction reconstruct_file(const Request& request, const LoadedField& field
   options.edge_ids = options.edge_ids || request.smoothing.has_value();
   options.progress = long_call.progress();
   try {
-    Reconstruction result = reconstruct_field(request, field, options);
+    Reconstruction result = reconstruct_field(request, field, options, long_call);
     if (request.smoothing) {
-      smooth(request, field, result);
+      smooth(request, field, long_call, result);
     }
     return result;
   } catch (const Error& error) {

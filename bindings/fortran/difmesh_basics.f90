@@ -17,7 +17,8 @@ module difmesh_basics
     module procedure init_options, init_report, init_function_options, init_function_report, &
       init_triangle_options, init_triangle_report, init_shape_options, init_measure, &
       init_distance_options, init_distance, init_mesh_write_options, init_raw_layout, &
-      init_field_write_options, init_block
+      init_field_write_options, init_block, init_mollify_options, init_curvature_options, &
+      init_smoothing_options
   end interface
 
   integer, parameter :: longest_text = 1024  ! of any message
@@ -198,6 +199,24 @@ contains
     type(dif_block), intent(out) :: struct
     integer(c_int32_t) :: ignored
     ignored = dif_block_init(struct, c_sizeof(struct))
+  end subroutine
+
+  subroutine init_mollify_options(struct)
+    type(dif_mollify_options), intent(out) :: struct
+    integer(c_int32_t) :: ignored
+    ignored = dif_mollify_options_init(struct, c_sizeof(struct))
+  end subroutine
+
+  subroutine init_curvature_options(struct)
+    type(dif_curvature_options), intent(out) :: struct
+    integer(c_int32_t) :: ignored
+    ignored = dif_curvature_options_init(struct, c_sizeof(struct))
+  end subroutine
+
+  subroutine init_smoothing_options(struct)
+    type(dif_smoothing_options), intent(out) :: struct
+    integer(c_int32_t) :: ignored
+    ignored = dif_smoothing_options_init(struct, c_sizeof(struct))
   end subroutine
 
 end module

@@ -357,6 +357,50 @@ module difmesh_c
       type(dif_distance), intent(inout), optional :: back
     end function
 
+    integer(c_int32_t) function dif_mollify_options_init(options, struct_size) bind(c)
+      import :: c_int32_t, c_int64_t, dif_mollify_options
+      type(dif_mollify_options), intent(inout) :: options
+      integer(c_int64_t), value :: struct_size
+    end function
+
+    integer(c_int32_t) function dif_mollify(field, options, values) bind(c)
+      import :: c_double, c_int32_t, dif_field, dif_mollify_options
+      type(dif_field), intent(in) :: field
+      type(dif_mollify_options), intent(in), optional :: options
+      real(c_double), intent(inout) :: values(*)
+    end function
+
+    integer(c_int32_t) function dif_curvature_options_init(options, struct_size) bind(c)
+      import :: c_int32_t, c_int64_t, dif_curvature_options
+      type(dif_curvature_options), intent(inout) :: options
+      integer(c_int64_t), value :: struct_size
+    end function
+
+    integer(c_int32_t) function dif_mesh_curvature(mesh, options, mean, gaussian, largest, &
+      smallest) bind(c)
+      import :: c_double, c_int32_t, c_ptr, dif_curvature_options
+      type(c_ptr), value :: mesh
+      type(dif_curvature_options), intent(in), optional :: options
+      real(c_double), intent(inout), optional :: mean(*)
+      real(c_double), intent(inout), optional :: gaussian(*)
+      real(c_double), intent(inout), optional :: largest(*)
+      real(c_double), intent(inout), optional :: smallest(*)
+    end function
+
+    integer(c_int32_t) function dif_smoothing_options_init(options, struct_size) bind(c)
+      import :: c_int32_t, c_int64_t, dif_smoothing_options
+      type(dif_smoothing_options), intent(inout) :: options
+      integer(c_int64_t), value :: struct_size
+    end function
+
+    integer(c_int32_t) function dif_mesh_smooth(mesh, grid, options, smooth) bind(c)
+      import :: c_int32_t, c_ptr, dif_grid, dif_smoothing_options
+      type(c_ptr), value :: mesh
+      type(dif_grid), intent(in), optional :: grid
+      type(dif_smoothing_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: smooth
+    end function
+
     integer(c_int32_t) function dif_mesh_write_options_init(options, struct_size) bind(c)
       import :: c_int32_t, c_int64_t, dif_mesh_write_options
       type(dif_mesh_write_options), intent(inout) :: options

@@ -8,7 +8,7 @@ module difmesh_fields
   implicit none
   private
 
-  public :: dif_view, dif_make_grid, dif_planes, dif_write_field
+  public :: dif_view, dif_make_grid, dif_planes, dif_mollified, dif_write_field
 
   ! field = dif_view(c, spacing, origin, ghosts): what the library is told of a solver's array
   ! c(i, j, k) of real(8), real(4), or 1- or 2-byte integers, whose bits count as unsigned, 0 to 255
@@ -244,6 +244,20 @@ contains
       if (all(arrays%strides == 0)) arrays%strides = strides
       fits = fits .and. all(arrays%strides == strides)
     end subroutine
+  end subroutine
+
+  ! The field, smoothed by a compact kernel, into values(nx, ny, nz); see dif_mollify in difmesh.h.
+  subroutine dif_mollified(field, values, status, options, message)
+    type(dif_field), intent(in) :: field
+    real(c_double), intent(inout), contiguous :: values(:, :, :)
+    integer(c_int32_t), intent(out) :: status
+    type(dif_mollify_options), intent(in), optional :: options
+    character(*), intent(inout), optional :: message
+    if (any(shape(values, c_int64_t) /= field%dims)) then
+      call refuse('values must have the shape of the field', status, message)
+      return
+    end if
+    call finish(dif_mollify(field, options, values), status, message)
   end subroutine
 
   ! To .npy or .nrrd; only the latter holds spacing and origin.

@@ -22,6 +22,7 @@ module difmesh_meshes
     procedure, public :: reconstruct_block
     procedure, public :: weld
     procedure, public :: set_arrays
+    procedure, public :: smooth
     procedure, public :: read => read_file
     procedure, public :: clear
     ! Its arrays: get_...() allocate copies.
@@ -42,6 +43,7 @@ module difmesh_meshes
     ! Facts about it.
     procedure, public :: get_report
     procedure, public :: measure
+    procedure, public :: get_curvature
     procedure, private :: distance_to_mesh, distance_to_shape
     generic, public :: distance_to => distance_to_mesh, distance_to_shape
     procedure, public :: write => write_file
@@ -90,6 +92,20 @@ contains
     type(c_ptr) :: made
     call finish(dif_mesh_weld(parts%handle, size(parts, kind=c_int64_t), grid, made), &
       status, message)
+    call take(mesh, made, status)
+  end subroutine
+
+  ! Another mesh with its vertices moved, without normals and scalars; see dif_mesh_smooth in
+  ! difmesh.h. dif_smoothing_constrained needs the grid of the reconstruction.
+  subroutine smooth(mesh, from, status, options, grid, message)
+    class(dif_mesh), intent(inout) :: mesh
+    type(dif_mesh), intent(in) :: from
+    integer(c_int32_t), intent(out) :: status
+    type(dif_smoothing_options), intent(in), optional :: options
+    type(dif_grid), intent(in), optional :: grid
+    character(*), intent(inout), optional :: message
+    type(c_ptr) :: made
+    call finish(dif_mesh_smooth(from%handle, grid, options, made), status, message)
     call take(mesh, made, status)
   end subroutine
 
@@ -318,8 +334,8 @@ contains
   end function
 
   ! Numbers that go with the vertices, values(n), in place of those of the same name; without
-  ! values these are removed. Names are letters, digits and underscores. glTF and Draco files take
-  ! scalars, and read() brings them.
+  ! values these are removed. Names are letters, digits and underscores. PLY, glTF and Draco files
+  ! take scalars, and read() brings them.
   subroutine set_scalars(mesh, name, values, status, message)
     class(dif_mesh), intent(inout) :: mesh
     character(*), intent(in) :: name
@@ -383,6 +399,21 @@ contains
     character(*), intent(inout), optional :: message
     call dif_init(facts)
     call finish(dif_mesh_measure(mesh%handle, facts), status, message)
+  end subroutine
+
+  ! Mean and Gaussian curvature at the vertices, mean(n) and gaussian(n), NaN where there is none.
+  subroutine get_curvature(mesh, mean, gaussian, status, options, message)
+    class(dif_mesh), intent(in) :: mesh
+    real(c_double), allocatable, intent(out) :: mean(:), gaussian(:)
+    integer(c_int32_t), intent(out) :: status
+    type(dif_curvature_options), intent(in), optional :: options
+    character(*), intent(inout), optional :: message
+    integer(c_int64_t) :: n
+    integer :: code
+    n = mesh%vertex_count()
+    allocate (mean(n), gaussian(n), stat=code)
+    if (no_room(code, status, message)) return
+    call finish(dif_mesh_curvature(mesh%handle, options, mean, gaussian), status, message)
   end subroutine
 
   subroutine distance_to_mesh(mesh, reference, distance, status, options, message)

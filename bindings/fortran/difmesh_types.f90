@@ -43,7 +43,9 @@ module difmesh_types
     dif_normals_default = 0, &
     dif_normals_youngs = 1, &
     dif_normals_myc = 2, &
-    dif_normals_height_function = 3
+    dif_normals_height_function = 3, &
+    dif_normals_elvira = 4, &
+    dif_normals_lvira = 5
 
   integer(c_int32_t), parameter, public :: &
     dif_side_default = 0, &
@@ -72,6 +74,18 @@ module difmesh_types
     dif_shape_genus = 4, &
     dif_shape_smooth_box = 5, &
     dif_shape_golf_ball = 6
+
+  integer(c_int32_t), parameter, public :: &
+    dif_smoothing_default = 0, &
+    dif_smoothing_laplacian = 1, &
+    dif_smoothing_taubin = 2, &
+    dif_smoothing_flow = 3, &
+    dif_smoothing_constrained = 4
+
+  integer(c_int32_t), parameter, public :: &
+    dif_boundary_default = 0, &
+    dif_boundary_stay = 1, &
+    dif_boundary_along = 2
 
   integer(c_int32_t), parameter, public :: &
     dif_mesh_format_by_extension = 0, &
@@ -290,6 +304,41 @@ module difmesh_types
     real(c_double) :: reach = 0
     integer(c_int32_t) :: has_sign = 0
     integer(c_int32_t) :: reserved = 0
+  end type
+
+  type, bind(c), public :: dif_mollify_options
+    integer(c_int64_t) :: struct_size = 0
+    real(c_double) :: radius = 0
+    integer(c_int32_t) :: sides(6) = 0
+    integer(c_int32_t) :: threads = 0
+    integer(c_int32_t) :: reserved = 0
+    type(c_funptr) :: progress = c_null_funptr
+    type(c_ptr) :: progress_user = c_null_ptr
+  end type
+
+  type, bind(c), public :: dif_curvature_options
+    integer(c_int64_t) :: struct_size = 0
+    integer(c_int32_t) :: rings = 0
+    integer(c_int32_t) :: threads = 0
+    type(c_funptr) :: progress = c_null_funptr
+    type(c_ptr) :: progress_user = c_null_ptr
+  end type
+
+  type, bind(c), public :: dif_smoothing_options
+    integer(c_int64_t) :: struct_size = 0
+    integer(c_int32_t) :: kind = 0
+    integer(c_int32_t) :: steps = 0
+    integer(c_int32_t) :: boundary = 0
+    integer(c_int32_t) :: threads = 0
+    real(c_double) :: factor = 0
+    real(c_double) :: lambda = 0
+    real(c_double) :: pass_band = 0
+    real(c_double) :: time = 0
+    real(c_double) :: residual = 0
+    real(c_double) :: tolerance = 0
+    real(c_double) :: clearance = 0
+    type(c_funptr) :: progress = c_null_funptr
+    type(c_ptr) :: progress_user = c_null_ptr
   end type
 
   type, bind(c), public :: dif_mesh_write_options

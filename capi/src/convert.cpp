@@ -9,7 +9,8 @@ constexpr std::int64_t kMostOffset = std::int64_t{1} << 60;
 
 constexpr std::array kPlacements{Placement::midpoint, Placement::linear, Placement::manson,
                                  Placement::plic};
-constexpr std::array kNormals{Normals::youngs, Normals::myc, Normals::height_function};
+constexpr std::array kNormals{Normals::youngs, Normals::myc, Normals::height_function,
+                              Normals::elvira, Normals::lvira};
 constexpr std::array kSides{Side::open, Side::mirror, Side::periodic, Side::empty, Side::full};
 constexpr std::array kTypes{ScalarType::float32, ScalarType::float64, ScalarType::uint8,
                             ScalarType::uint16};
@@ -128,18 +129,23 @@ Grid to_grid(const dif_grid* grid) {
   return result;
 }
 
+Sides to_sides(const std::int32_t (&from)[6]) {
+  Sides sides{};
+  for (std::size_t side = 0; side < 6; ++side) {
+    sides[side] = to_choice(from[side], Side::open, kSides, "sides[" + std::to_string(side) + "]");
+  }
+  return sides;
+}
+
 Options to_options(const dif_options* options) {
   dif_options defaults{};
   dif_options_init(&defaults, sizeof defaults);
   const dif_options given = read_struct(options, defaults, "options");
   require_zero(given.reserved, "options");
   Options result;
+  result.sides = to_sides(given.sides);
   result.placement = to_choice(given.placement, result.placement, kPlacements, "placement");
   result.normals = to_choice(given.normals, result.normals, kNormals, "normals");
-  for (std::size_t side = 0; side < 6; ++side) {
-    result.sides[side] =
-        to_choice(given.sides[side], Side::open, kSides, "sides[" + std::to_string(side) + "]");
-  }
   result.vertex_normals = to_bool(given.vertex_normals, "vertex_normals");
   result.edge_ids = to_bool(given.edge_ids, "edge_ids");
   result.purity_tolerance = given.purity_tolerance;

@@ -50,6 +50,7 @@ struct Field {
 /// The same without origin and spacing.
 [[nodiscard]] FieldView to_view(const dif_field* field);
 [[nodiscard]] Grid to_grid(const dif_grid* grid);
+[[nodiscard]] Sides to_sides(const std::int32_t (&from)[6]);
 [[nodiscard]] Options to_options(const dif_options* options);
 
 /// Strides whose offsets, in bytes, do not fit into 62 bits are refused.

@@ -151,9 +151,11 @@ dif_status dif_mesh_write(const dif_mesh* mesh, const char* path,
                  .scalars = std::move(request.scalars),
                  .draco = to_draco(request.given)});
     } else {
-      write_mesh(
-          name, source,
-          {.format = request.format, .normals = request.normals, .edge_ids = request.edge_ids});
+      write_mesh(name, source,
+                 {.format = request.format,
+                  .normals = request.normals,
+                  .edge_ids = request.edge_ids,
+                  .scalars = std::move(request.scalars)});
     }
   });
 }

@@ -181,6 +181,29 @@ TEST_CASE("a failed allocation anywhere is a status and leaks nothing") {
       return dif_fractions_from_mesh(&f.grid, f.sphere.get(), &triangle_options, nullptr,
                                      f.fractions.data());
     });
+    dif_curvature_options curvature_options = test::prepared(dif_curvature_options_init);
+    curvature_options.threads = threads;
+    std::vector<double> mean(test::mesh_of(f.sphere.get()).positions.size());
+    fail_each_allocation("dif_mesh_curvature", [&] {
+      return dif_mesh_curvature(f.sphere.get(), &curvature_options, mean.data(), nullptr, nullptr,
+                                nullptr);
+    });
+    dif_smoothing_options smoothing_options = test::prepared(dif_smoothing_options_init);
+    smoothing_options.threads = threads;
+    for (const std::int32_t kind : {DIF_SMOOTHING_TAUBIN, DIF_SMOOTHING_FLOW}) {
+      smoothing_options.kind = kind;
+      fail_each_allocation("dif_mesh_smooth", [&] {
+        dif_mesh* mesh = nullptr;
+        const dif_status status =
+            dif_mesh_smooth(f.sphere.get(), nullptr, &smoothing_options, &mesh);
+        dif_mesh_free(mesh);
+        return status;
+      });
+    }
+    dif_mollify_options mollify_options = test::prepared(dif_mollify_options_init);
+    mollify_options.threads = threads;
+    fail_each_allocation("dif_mollify",
+                         [&] { return dif_mollify(&f.field, &mollify_options, f.planes.data()); });
   }
   fail_each_allocation("dif_mesh_measure", [&] {
     dif_measure measure = test::prepared(dif_measure_init);

@@ -228,7 +228,7 @@ TEST_CASE("scalars are the caller's until they are removed") {
   CHECK(scalars_of(mesh, "height").empty());
 }
 
-TEST_CASE("scalars go into glTF and Draco files and come back") {
+TEST_CASE("scalars go into PLY and glTF and Draco files and come back") {
   const TempFolder folder;
   const auto mesh = surface_with_heights();
   const std::vector<double> heights = scalars_of(mesh, "height");
@@ -251,7 +251,13 @@ TEST_CASE("scalars go into glTF and Draco files and come back") {
     CHECK(names_of(read_mesh(folder / "plain.glb")).empty());
   }
   REQUIRE(dif_mesh_write(mesh.get(), (folder / "blob.ply").c_str(), nullptr) == DIF_OK);
-  CHECK(names_of(read_mesh(folder / "blob.ply")).empty());
+  const auto exact = read_mesh(folder / "blob.ply");
+  CHECK(names_of(exact) == std::vector<std::string>{"height"});
+  CHECK(scalars_of(exact, "height") == heights);
+  REQUIRE(dif_mesh_write(mesh.get(), (folder / "plain.ply").c_str(), &options) == DIF_OK);
+  CHECK(names_of(read_mesh(folder / "plain.ply")).empty());
+  REQUIRE(dif_mesh_write(mesh.get(), (folder / "blob.off").c_str(), nullptr) == DIF_OK);
+  CHECK(names_of(read_mesh(folder / "blob.off")).empty());
 }
 
 TEST_CASE("Draco's options set the error and the size") {

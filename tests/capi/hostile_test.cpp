@@ -38,6 +38,9 @@ struct Bench {
   dif_triangle_options triangle_options = test::prepared(dif_triangle_options_init);
   dif_shape_options shape_options = test::prepared(dif_shape_options_init);
   dif_distance_options distance_options = test::prepared(dif_distance_options_init);
+  dif_curvature_options curvature_options = test::prepared(dif_curvature_options_init);
+  dif_smoothing_options smoothing_options = test::prepared(dif_smoothing_options_init);
+  dif_mollify_options mollify_options = test::prepared(dif_mollify_options_init);
   dif_block block = test::prepared(dif_block_init);
   dif_plane_arrays arrays = test::prepared(dif_plane_arrays_init);
   std::vector<double> numbers = std::vector<double>(3000, 0.5);
@@ -174,7 +177,7 @@ std::vector<Case> field_cases() {
       CHANGED(f, options.struct_size = 4, kStruct, reconstruct),
       CHANGED(f, options.placement = 5, kArgument, reconstruct),
       CHANGED(f, options.placement = -1, kArgument, reconstruct),
-      CHANGED(f, options.normals = 4, kArgument, reconstruct),
+      CHANGED(f, options.normals = 6, kArgument, reconstruct),
       CHANGED(f, options.sides[3] = 6, kArgument, reconstruct),
       CHANGED(f, options.sides[5] = -2, kArgument, reconstruct),
       CHANGED(f, options.sides[0] = DIF_SIDE_PERIODIC, kArgument, reconstruct),
@@ -282,6 +285,69 @@ std::vector<Case> mesh_cases() {
          const test::MeshHandle handle(b.result);
          return dif_mesh_measure(b.result, &measure);
        }},
+  };
+}
+
+dif_status smooth(Bench& b) {
+  b.result = reinterpret_cast<dif_mesh*>(&b);
+  const dif_status status = dif_mesh_smooth(b.mesh.get(), &b.grid, &b.smoothing_options, &b.result);
+  CHECK(b.result == nullptr);
+  return status;
+}
+dif_status curve(Bench& b) {
+  return dif_mesh_curvature(b.mesh.get(), &b.curvature_options, b.numbers.data(), nullptr, nullptr,
+                            nullptr);
+}
+dif_status mollify(Bench& b) {
+  return dif_mollify(&b.field, &b.mollify_options, b.numbers.data());
+}
+
+std::vector<Case> smoothing_cases() {
+  const char* const s = "dif_mesh_smooth";
+  const char* const c = "dif_mesh_curvature";
+  const char* const m = "dif_mollify";
+  return {
+    CALL("dif_curvature_options_init", dif_curvature_options_init(nullptr, 32), kArgument),
+        CALL(c, dif_mesh_curvature(nullptr, nullptr, b.numbers.data(), nullptr, nullptr, nullptr),
+             kArgument),
+        CHANGED(c, curvature_options.struct_size = 3, kStruct, curve),
+        CHANGED(c, curvature_options.rings = 0, kArgument, curve),
+        CHANGED(c, curvature_options.rings = 9, kArgument, curve),
+        CHANGED(c, curvature_options.threads = -1, kArgument, curve),
+        CALL("dif_smoothing_options_init", dif_smoothing_options_init(nullptr, 96), kArgument),
+        CALL(s, dif_mesh_smooth(nullptr, nullptr, nullptr, &b.result), kArgument),
+        CALL(s, dif_mesh_smooth(b.mesh.get(), nullptr, nullptr, nullptr), kArgument),
+        CHANGED(s, smoothing_options.struct_size = 0, kStruct, smooth),
+        CHANGED(s, smoothing_options.kind = 5, kArgument, smooth),
+        CHANGED(s, smoothing_options.kind = -1, kArgument, smooth),
+        CHANGED(s, smoothing_options.steps = -1, kArgument, smooth),
+        CHANGED(s, smoothing_options.boundary = 3, kArgument, smooth),
+        CHANGED(s, smoothing_options.threads = -1, kArgument, smooth),
+        CHANGED(s, smoothing_options.lambda = kNaN, kArgument, smooth),
+        CHANGED(s, smoothing_options.pass_band = -0.1, kArgument, smooth),
+        CHANGED(s, smoothing_options.kind = DIF_SMOOTHING_LAPLACIAN;
+                b.smoothing_options.factor = 2.0, kArgument, smooth),
+        CHANGED(s, smoothing_options.kind = DIF_SMOOTHING_FLOW;
+                b.smoothing_options.time = kInfinity, kArgument, smooth),
+        CHANGED(s, smoothing_options.kind = DIF_SMOOTHING_FLOW;
+                b.smoothing_options.residual = 0.0, kArgument, smooth),
+        CHANGED(s, smoothing_options.kind = DIF_SMOOTHING_CONSTRAINED, kArgument, smooth),
+        CALL(s,
+             (b.smoothing_options.kind = DIF_SMOOTHING_CONSTRAINED,
+              dif_mesh_smooth(b.mesh.get(), nullptr, &b.smoothing_options, &b.result)),
+             kArgument),
+        CALL("dif_mollify_options_init", dif_mollify_options_init(nullptr, 64), kArgument),
+        CALL(m, dif_mollify(nullptr, nullptr, b.numbers.data()), kArgument),
+        CALL(m, dif_mollify(&b.field, nullptr, nullptr), kArgument),
+        CHANGED(m, mollify_options.struct_size = 5, kStruct, mollify),
+        CHANGED(m, mollify_options.radius = 0.5, kArgument, mollify),
+        CHANGED(m, mollify_options.radius = kNaN, kArgument, mollify),
+        CHANGED(m, mollify_options.sides[2] = 6, kArgument, mollify),
+        CHANGED(m, mollify_options.sides[2] = DIF_SIDE_PERIODIC, kArgument, mollify),
+        CHANGED(m, mollify_options.threads = -1, kArgument, mollify),
+        CHANGED(m, mollify_options.reserved = 1, kArgument, mollify),
+        CHANGED(m, field.dims[0] = 0, kGrid, mollify),
+        CHANGED(m, values.values[33] = kNaN, DIF_ERROR_INVALID_VALUE, mollify),
   };
 }
 
@@ -652,8 +718,9 @@ std::vector<Case> file_cases() {
 TEST_CASE("bad arguments give a status and a message at every function") {
   std::set<std::string> seen;
   std::size_t count = 0;
-  for (const auto& cases : {field_cases(), mesh_cases(), plane_cases(), fraction_cases(),
-                            block_cases(), distance_cases(), file_cases(), write_cases()}) {
+  for (const auto& cases :
+       {field_cases(), mesh_cases(), smoothing_cases(), plane_cases(), fraction_cases(),
+        block_cases(), distance_cases(), file_cases(), write_cases()}) {
     for (const Case& one : cases) {
       Bench bench;
       INFO(one.function << ": " << one.what);

@@ -129,6 +129,9 @@ TEST_CASE("init functions serve structs of every length") {
   check_init<dif_raw_layout>("raw_layout", dif_raw_layout_init);
   check_init<dif_field_write_options>("field_write_options", dif_field_write_options_init);
   check_init<dif_block>("block", dif_block_init);
+  check_init<dif_curvature_options>("curvature_options", dif_curvature_options_init);
+  check_init<dif_smoothing_options>("smoothing_options", dif_smoothing_options_init);
+  check_init<dif_mollify_options>("mollify_options", dif_mollify_options_init);
 }
 
 TEST_CASE("calls read structs of every length") {
@@ -143,6 +146,24 @@ TEST_CASE("calls read structs of every length") {
   check_reading<dif_options>("options", dif_options_init, [&](const dif_options* options) {
     return reconstruct(&field, options);
   });
+  const test::MeshHandle surface = test::c_reconstruct(field);
+  std::vector<double> numbers(12 * 12 * 12 + test::mesh_of(surface.get()).positions.size());
+  check_reading<dif_curvature_options>(
+      "curvature_options", dif_curvature_options_init, [&](const dif_curvature_options* options) {
+        return dif_mesh_curvature(surface.get(), options, numbers.data(), nullptr, nullptr,
+                                  nullptr);
+      });
+  check_reading<dif_smoothing_options>(
+      "smoothing_options", dif_smoothing_options_init, [&](const dif_smoothing_options* options) {
+        dif_mesh* mesh = nullptr;
+        const dif_status status = dif_mesh_smooth(surface.get(), nullptr, options, &mesh);
+        dif_mesh_free(mesh);
+        return status;
+      });
+  check_reading<dif_mollify_options>("mollify_options", dif_mollify_options_init,
+                                     [&](const dif_mollify_options* options) {
+                                       return dif_mollify(&field, options, numbers.data());
+                                     });
   // Without dims there is no field; without origin and spacing there are their defaults.
   check_reading<dif_field>(
       "field",

@@ -33,12 +33,14 @@ from ._mesh import Measure, Mesh, Report, read_mesh
 from ._options import choice as _choice
 from ._planes import Planes, cell_planes, normals, plane_fraction, plane_offset
 from ._reconstruct import GHOST_LAYERS, reconstruct, reconstruct_block, weld
+from ._smoothing import Curvature, curvature, mollify, smooth
 
 __version__ = "0.1.0"
 
 __all__ = [
     "GHOST_LAYERS",
     "CancelledError",
+    "Curvature",
     "Distance",
     "Error",
     "Field",
@@ -60,10 +62,12 @@ __all__ = [
     "TriangleReport",
     "UnsupportedError",
     "cell_planes",
+    "curvature",
     "distance",
     "distance_both_ways",
     "has",
     "library_version",
+    "mollify",
     "normals",
     "plane_fraction",
     "plane_offset",
@@ -74,6 +78,7 @@ __all__ = [
     "sample_function",
     "sample_mesh",
     "sample_shape",
+    "smooth",
     "weld",
     "write_field",
 ]

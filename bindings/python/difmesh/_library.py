@@ -87,6 +87,14 @@ _ARGUMENTS: dict[str, list[Any]] = {
     "dif_distance_to_shape": [_MESH, _SHAPE, _DISTANCE_OPTIONS, _DISTANCE],
     "dif_distance_to_function": [_MESH, s.FUNCTION, c_void_p, _DISTANCE_OPTIONS, _DISTANCE],
     "dif_distance_to_mesh": [_MESH, _MESH, _DISTANCE_OPTIONS, _DISTANCE, _DISTANCE],
+    "dif_mollify_options_init": _init(s.DifMollifyOptions),
+    "dif_mollify": [_FIELD, POINTER(s.DifMollifyOptions), c_void_p],
+    "dif_curvature_options_init": _init(s.DifCurvatureOptions),
+    "dif_mesh_curvature": [
+        _MESH, POINTER(s.DifCurvatureOptions), c_void_p, c_void_p, c_void_p, c_void_p
+    ],
+    "dif_smoothing_options_init": _init(s.DifSmoothingOptions),
+    "dif_mesh_smooth": [_MESH, _GRID, POINTER(s.DifSmoothingOptions), _OUT],
     "dif_mesh_write_options_init": _init(s.DifMeshWriteOptions),
     "dif_mesh_write": [_MESH, c_char_p, POINTER(s.DifMeshWriteOptions)],
     "dif_mesh_read": [c_char_p, _OUT],

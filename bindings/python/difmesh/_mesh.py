@@ -260,8 +260,10 @@ class Mesh:
         unless switched off. The file appears when it is complete; on an error nothing is left
         behind.
 
+        scalars: names to arrays (n,) of numbers to write, besides those that the mesh has, to PLY,
+        glTF and Draco files.
+
         glTF and Draco files (.glb, .gltf, .drc):
-        scalars: names to arrays (n,) of numbers to write, besides those that the mesh has.
         draco: True compresses glTF; a number, for .drc too, is that of bits per coordinate, 1 to
         24. Without it there are as many as keep coordinates within a thousandth of `cell_size`, or
         of the mean length of the triangles' edges if that is 0.

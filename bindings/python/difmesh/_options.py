@@ -10,7 +10,7 @@ from ._library import defaults
 from ._structs import DifOptions
 
 _PLACEMENTS = {"midpoint": 1, "linear": 2, "manson": 3, "plic": 4}
-_NORMALS = {"youngs": 1, "myc": 2, "height_function": 3}
+_NORMALS = {"youngs": 1, "myc": 2, "height_function": 3, "elvira": 4, "lvira": 5}
 _SIDES = {"open": 1, "mirror": 2, "periodic": 3, "empty": 4, "full": 5}
 
 
@@ -18,10 +18,7 @@ def to_options(relay: Relay, sides: str | Sequence[str], **given: Any) -> DifOpt
     """The library's options; None leaves the default."""
     options = defaults(DifOptions, "dif_options_init")
     options.progress = relay.progress
-    six = (sides,) * 6 if isinstance(sides, str) else tuple(sides)
-    if len(six) != 6:
-        raise ValueError(f"sides are {sides!r}; one name or six are needed, from x low to z high")
-    options.sides = tuple(choice(side, _SIDES, "a side") for side in six)
+    options.sides = six_sides(sides)
     for name, value in given.items():
         if name == "placement":
             options.placement = choice(value, _PLACEMENTS, name)
@@ -32,6 +29,14 @@ def to_options(relay: Relay, sides: str | Sequence[str], **given: Any) -> DifOpt
         elif value is not None:
             setattr(options, name, value)
     return options
+
+
+def six_sides(sides: str | Sequence[str]) -> tuple[int, ...]:
+    """The constants of one name for all sides, or of six."""
+    six = (sides,) * 6 if isinstance(sides, str) else tuple(sides)
+    if len(six) != 6:
+        raise ValueError(f"sides are {sides!r}; one name or six are needed, from x low to z high")
+    return tuple(choice(side, _SIDES, "a side") for side in six)
 
 
 def choice(name: str, names: dict[str, int], what: str) -> int:

@@ -52,7 +52,8 @@ def reconstruct(
         it; "ijk" if it is indexed [i, j, k]. Says nothing of how it lies in memory.
     placement: "plic" (second-order accurate), "manson", "linear" (plain marching cubes) or
         "midpoint".
-    normals: how those of cells are estimated: "height_function", "myc" or "youngs".
+    normals: how those of cells are estimated: "height_function", "myc", "youngs", "elvira" or
+        "lvira".
     sides: what lies beyond the domain: "open", "mirror", "periodic", "empty" or "full"; one for all
         or six: x low, x high, y low, y high, z low, z high.
     vertex_normals, edge_ids: whether the mesh gets them.

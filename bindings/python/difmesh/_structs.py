@@ -245,6 +245,47 @@ class DifDistance(Sized):
     ]
 
 
+class DifMollifyOptions(Sized):
+    _fields_ = [
+        ("struct_size", c_uint64),
+        ("radius", c_double),
+        ("sides", c_int32 * 6),
+        ("threads", c_int32),
+        ("reserved", c_int32),
+        ("progress", PROGRESS),
+        ("progress_user", c_void_p),
+    ]
+
+
+class DifCurvatureOptions(Sized):
+    _fields_ = [
+        ("struct_size", c_uint64),
+        ("rings", c_int32),
+        ("threads", c_int32),
+        ("progress", PROGRESS),
+        ("progress_user", c_void_p),
+    ]
+
+
+class DifSmoothingOptions(Sized):
+    _fields_ = [
+        ("struct_size", c_uint64),
+        ("kind", c_int32),
+        ("steps", c_int32),
+        ("boundary", c_int32),
+        ("threads", c_int32),
+        ("factor", c_double),
+        ("lambda", c_double),
+        ("pass_band", c_double),
+        ("time", c_double),
+        ("residual", c_double),
+        ("tolerance", c_double),
+        ("clearance", c_double),
+        ("progress", PROGRESS),
+        ("progress_user", c_void_p),
+    ]
+
+
 class DifMeshWriteOptions(Sized):
     _fields_ = [
         ("struct_size", c_uint64),

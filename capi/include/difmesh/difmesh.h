@@ -4,7 +4,7 @@
  * difmesh.h: surfaces from volume fractions, for every language with a C interface.
  *
  * C99 and C++. Link with -ldifmesh. Reads top-down: 1 basics, 2 the main job, 3 more about meshes,
- * 4 planes and normals alone, 5 making fields, 6 measuring, 7 files, 8 experimental.
+ * 4 planes and normals alone, 5 making fields, 6 measuring and smoothing, 7 files, 8 experimental.
  *
  *     double c[NZ][NY][NX];                              // volume fractions, x fastest
  *     int64_t dims[3] = {NX, NY, NZ};
@@ -164,10 +164,12 @@ enum {
 
 /* How the normal of an interfacial cell is estimated. */
 enum {
-  DIF_NORMALS_DEFAULT = 0,        /* HEIGHT_FUNCTION */
-  DIF_NORMALS_YOUNGS = 1,         /* weighted gradient */
-  DIF_NORMALS_MYC = 2,            /* mixed Youngs-centred, Aulisa et al., J. Comput. Phys. 2007 */
-  DIF_NORMALS_HEIGHT_FUNCTION = 3 /* columns of heights where consistent, MYC elsewhere */
+  DIF_NORMALS_DEFAULT = 0,         /* HEIGHT_FUNCTION */
+  DIF_NORMALS_YOUNGS = 1,          /* weighted gradient */
+  DIF_NORMALS_MYC = 2,             /* mixed Youngs-centred, Aulisa et al., J. Comput. Phys. 2007 */
+  DIF_NORMALS_HEIGHT_FUNCTION = 3, /* columns of heights where consistent, MYC elsewhere */
+  DIF_NORMALS_ELVIRA = 4,          /* of 27 planes the one that suits the neighbours best */
+  DIF_NORMALS_LVIRA = 5 /* the plane that suits the neighbours best; Pilliod & Puckett 2004 */
 };
 
 /* What lies beyond a side of the domain. */
@@ -274,7 +276,7 @@ DIF_API dif_status dif_mesh_set_normals(dif_mesh* mesh, const double* normals);
 DIF_API dif_status dif_mesh_set_edge_ids(dif_mesh* mesh, const uint64_t* ids);
 
 /* Scalars: numbers of your own that go with the vertices, under a name of letters, digits and
- * underscores. Those of a file come with dif_mesh_read(); glTF and Draco files take them. */
+ * underscores. Those of a file come with dif_mesh_read(); PLY, glTF and Draco files take them. */
 
 /* Gives a mesh scalars, one number per vertex, which are copied, in place of those of the same name.
  * NULL removes these. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. Since 0.1. */
@@ -327,14 +329,15 @@ enum {
   DIF_SOURCE_YOUNGS = 1,
   DIF_SOURCE_CENTRED_COLUMNS = 2, /* of MYC */
   DIF_SOURCE_HEIGHT_FUNCTION = 3,
-  DIF_SOURCE_LEAST_SQUARES = 4 /* fitted where an open side cuts stencils short */
+  DIF_SOURCE_LEAST_SQUARES = 4 /* ELVIRA, LVIRA, and where an open side cuts stencils short */
 };
 
 /* Unit normals, out of the material, and offsets of the planes of `count` cells, by options->normals,
  * sides and purity_tolerance. cells: 3 count indices, in [0, dims). normals: 3 count numbers;
  * offsets, sources: count; any of the three may be NULL. The field is read only near these cells; NaN
  * there counts as 0.
- * Errors: as dif_reconstruct(). Cost: 0.1 to 0.3 microseconds per cell. Since 0.1. */
+ * Errors: as dif_reconstruct(). Cost: 0.1 to 0.3 microseconds per cell, 10 to 20 by ELVIRA
+ * and LVIRA. Since 0.1. */
 DIF_API dif_status dif_cell_planes(const dif_field* field, const dif_options* options,
                                    int64_t count, const int64_t* cells, double* normals,
                                    double* offsets, int32_t* sources);
@@ -506,7 +509,27 @@ DIF_API dif_status dif_fractions_from_shape(const dif_grid* grid, const dif_shap
                                             const dif_function_options* options,
                                             dif_function_report* report, double* fractions);
 
-/* ============================== 6. Measuring ================================================== */
+typedef struct dif_mollify_options {
+  uint64_t struct_size;
+  double radius;    /* where the kernel ends, in cells; [1, 8]; 2 */
+  int32_t sides[6]; /* DIF_SIDE_..., as in dif_options; OPEN counts as MIRROR here */
+  int32_t threads;
+  int32_t reserved; /* 0 */
+  dif_progress progress;
+  void* progress_user;
+} dif_mollify_options;
+
+/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
+DIF_API dif_status dif_mollify_options_init(dif_mollify_options* options, uint64_t struct_size);
+
+/* Convolution of a field with a compact kernel that keeps the sum, unless sides are EMPTY or FULL.
+ * `values` has one element per cell, x fastest. Origin and spacing are not looked at.
+ * Errors: INVALID_ARGUMENT, INVALID_GRID, INVALID_VALUE (the cell that is NaN or infinite is named),
+ * STRUCT, TOO_LARGE, OUT_OF_MEMORY, CANCELLED. Since 0.1. */
+DIF_API dif_status dif_mollify(const dif_field* field, const dif_mollify_options* options,
+                               double* values);
+
+/* ============================== 6. Measuring and smoothing ==================================== */
 
 /* Facts about a mesh from its arrays alone; vertices are told apart by index. */
 typedef struct dif_measure {
@@ -591,6 +614,69 @@ DIF_API dif_status dif_distance_to_mesh(const dif_mesh* mesh, const dif_mesh* re
                                         const dif_distance_options* options, dif_distance* distance,
                                         dif_distance* back);
 
+typedef struct dif_curvature_options {
+  uint64_t struct_size;
+  int32_t rings; /* neighbours up to so many edges away are fitted; [1, 8]; 2 */
+  int32_t threads;
+  dif_progress progress;
+  void* progress_user;
+} dif_curvature_options;
+
+/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
+DIF_API dif_status dif_curvature_options_init(dif_curvature_options* options, uint64_t struct_size);
+
+/* Curvatures at the vertices of a mesh, by parabolic patches fitted to their neighbours: the mean of
+ * the principal ones, their product (Gaussian), the larger and the smaller. One number per vertex
+ * each, NaN where too few neighbours determine no patch; any of the four may be NULL. In 1 / unit,
+ * the Gaussian squared; positive where bodies are convex: 1/R for a ball.
+ * Errors: INVALID_ARGUMENT (a position that is not finite is named), STRUCT, OUT_OF_MEMORY,
+ * CANCELLED. Since 0.1. */
+DIF_API dif_status dif_mesh_curvature(const dif_mesh* mesh, const dif_curvature_options* options,
+                                      double* mean, double* gaussian, double* largest,
+                                      double* smallest);
+
+enum {
+  DIF_SMOOTHING_DEFAULT = 0,    /* TAUBIN */
+  DIF_SMOOTHING_LAPLACIAN = 1,  /* to the neighbours' mean; shrinks */
+  DIF_SMOOTHING_TAUBIN = 2,     /* to the neighbours' mean and back by more; hardly shrinks */
+  DIF_SMOOTHING_FLOW = 3,       /* along the normal by the mean curvature, implicit; shrinks */
+  DIF_SMOOTHING_CONSTRAINED = 4 /* keeps each cell's fraction within a tolerance */
+};
+
+/* What vertices on boundaries do under LAPLACIAN and TAUBIN; others keep them where they are. */
+enum {
+  DIF_BOUNDARY_DEFAULT = 0, /* STAY */
+  DIF_BOUNDARY_STAY = 1,
+  DIF_BOUNDARY_ALONG = 2 /* see their neighbours along the boundary only */
+};
+
+typedef struct dif_smoothing_options {
+  uint64_t struct_size;
+  int32_t kind;     /* DIF_SMOOTHING_... */
+  int32_t steps;    /* 0, the default: 1, for TAUBIN 15, for CONSTRAINED 3 */
+  int32_t boundary; /* DIF_BOUNDARY_... */
+  int32_t threads;
+  double factor;    /* LAPLACIAN: share of the way to the mean; (0, 1]; 1 */
+  double lambda;    /* TAUBIN: likewise; 0.6307 */
+  double pass_band; /* TAUBIN: frequency below which nothing is damped, 0 to 2; 0.1 */
+  double time;      /* FLOW: of each step, in the square of the mesh's unit; > 0; 1 */
+  double residual;  /* FLOW: of the linear systems, over the first; [1e-14, 0.1]; 1e-10 */
+  double tolerance; /* CONSTRAINED: of fractions; [1e-9, 0.5]; 0.01 */
+  double clearance; /* CONSTRAINED: as in dif_options; 1e-12 */
+  dif_progress progress;
+  void* progress_user;
+} dif_smoothing_options;
+
+/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
+DIF_API dif_status dif_smoothing_options_init(dif_smoothing_options* options, uint64_t struct_size);
+
+/* A new mesh with the vertices moved. It has the triangles and edge_ids of the given one, but no
+ * normals, scalars or report, which no longer hold. CONSTRAINED needs a closed mesh with edge_ids and
+ * the grid of its reconstruction; `grid` may be NULL for the others, which do not look at it.
+ * Errors: INVALID_ARGUMENT, INVALID_GRID, TOO_LARGE, STRUCT, OUT_OF_MEMORY, CANCELLED. Since 0.1. */
+DIF_API dif_status dif_mesh_smooth(const dif_mesh* mesh, const dif_grid* grid,
+                                   const dif_smoothing_options* options, dif_mesh** smooth);
+
 /* ============================== 7. Files ====================================================== */
 
 /* Paths are those of the system, on POSIX any bytes but 0. Files appear under their names when they
@@ -637,7 +723,7 @@ typedef struct dif_mesh_write_options {
   int32_t normals;       /* 1, the default: write them, where mesh and format have them */
   int32_t edge_ids;      /* 1, the default: likewise */
   int32_t reserved;      /* 0 */
-  int32_t scalars;       /* 1, the default: likewise, glTF and Draco */
+  int32_t scalars;       /* 1, the default: likewise; PLY, glTF and Draco */
   int32_t draco;         /* 1: compress glTF, with KHR_draco_mesh_compression; default 0 */
   int32_t draco_method;  /* DIF_DRACO_...; EDGEBREAKER */
   int32_t draco_speed;   /* 0 small to 10 fast; 5 */

@@ -16,6 +16,7 @@ program bindings_fortran_test
   call test_mesh_files()
   call test_scalars()
   call test_distance()
+  call test_smoothing()
   if (failures > 0) error stop 'some expectations failed'
   print '(a)', 'all expectations hold'
 end program

@@ -7,7 +7,7 @@ module meshes_test
   implicit none
   private
   public :: test_arrays, test_results, test_progress, test_blocks, test_mesh_files, test_distance
-  public :: test_scalars
+  public :: test_scalars, test_smoothing
 
   integer :: calls = 0
 
@@ -63,6 +63,76 @@ contains
     call copy%set_arrays(points(:2, :), faces, status)
     call expect(status == dif_error_invalid_argument, 'no points in space')
     call expect_same(copy, many(1), 'left as it was')
+  end subroutine
+
+  ! A ball of radius 8: its curvature, and what smoothing does to it.
+  subroutine test_smoothing()
+    real(8), target :: c(24, 24, 24)
+    real(8) :: smooth_field(24, 24, 24)
+    type(dif_grid) :: grid
+    type(dif_shape) :: ball
+    type(dif_shape_options) :: shape
+    type(dif_options) :: options
+    type(dif_smoothing_options) :: smoothing
+    type(dif_curvature_options) :: curvature
+    type(dif_mollify_options) :: mollify
+    type(dif_mesh) :: mesh, smooth
+    type(dif_measure) :: before, after
+    real(8), allocatable :: mean(:), gaussian(:), other(:)
+    integer :: status
+    character(1000) :: message
+    call dif_init(shape)
+    shape%centre = [12.1d0, 11.8d0, 12.3d0]
+    shape%radius = 8
+    call ball%create(shape, status)
+    grid = dif_make_grid([24, 24, 24])
+    call dif_sample_shape(grid, ball, c, status)
+    call expect(status == dif_ok, 'a ball to smooth')
+    call dif_init(options)
+    options%edge_ids = 1
+    call mesh%reconstruct(dif_view(c), status, options)
+    call mesh%measure(before, status)
+
+    call mesh%get_curvature(mean, gaussian, status)
+    call expect(status == dif_ok, 'curvature')
+    call expect(size(mean, kind=8) == before%vertices, 'curvature of each vertex')
+    call expect(maxval(abs(8*mean - 1)) < 0.1d0, 'mean curvature of a ball')
+    call expect(maxval(abs(64*gaussian - 1)) < 0.2d0, 'Gaussian curvature of a ball')
+    call dif_init(curvature)
+    curvature%rings = 3
+    call mesh%get_curvature(other, gaussian, status, curvature)
+    call expect(status == dif_ok .and. any(abs(other - mean) > 0), 'three rings')
+    curvature%rings = 0
+    call mesh%get_curvature(other, gaussian, status, curvature, message)
+    call expect(status == dif_error_invalid_argument .and. index(message, 'rings') > 0, 'no rings')
+
+    call smooth%smooth(mesh, status)
+    call smooth%measure(after, status)
+    call expect(abs(after%volume/before%volume - 1) < 0.03d0, "Taubin's smoothing keeps the volume")
+    call dif_init(smoothing)
+    smoothing%kind = dif_smoothing_flow
+    call smooth%smooth(mesh, status, smoothing)
+    call smooth%measure(after, status)
+    call expect_near(after%volume/before%volume, (1 - 4/64d0)**1.5d0, 0.01d0, 'flow shrinks a ball')
+    smoothing%kind = dif_smoothing_constrained
+    call smooth%smooth(mesh, status, smoothing, grid)
+    call expect(status == dif_ok, 'smoothing within fractions')
+    call smooth%measure(after, status)
+    call expect(abs(after%volume/before%volume - 1) < 1d-3, 'it keeps the volume')
+    call smooth%smooth(mesh, status, smoothing, message=message)
+    call expect(status == dif_error_invalid_argument .and. index(message, 'grid') > 0, 'without grid')
+    call expect(smooth%vertex_count() == before%vertices, 'left as it was')
+
+    call dif_mollified(dif_view(c), smooth_field, status)
+    call expect(status == dif_ok, 'mollified')
+    call expect_near(sum(smooth_field), sum(c), 1d-9, 'the sum is kept')
+    call expect(maxval(abs(smooth_field - c)) > 0.1d0, 'the field is another')
+    call dif_init(mollify)
+    mollify%radius = 1
+    call dif_mollified(dif_view(c), smooth_field, status, mollify)
+    call expect(maxval(abs(smooth_field - c)) <= 0, 'a kernel of one cell')
+    call dif_mollified(dif_view(c), smooth_field(:, :, :23), status)
+    call expect(status == dif_error_invalid_argument, 'too few values')
   end subroutine
 
   subroutine test_results()
