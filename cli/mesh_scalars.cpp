@@ -1,5 +1,6 @@
 #include "mesh_scalars.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "names.hpp"
@@ -46,7 +47,16 @@ VertexScalars scalars_of(const std::string& option, const std::string& name,
     }
     known += (&kind == &kKinds.front() ? "" : ", ") + std::string(kind.name);
   }
-  throw CLI::ValidationError(option, "'" + name + "' is none of " + known);
+  const std::string more = name == kErrorName ? "; it needs --shape or --reference" : "";
+  throw CLI::ValidationError(option, "'" + name + "' is none of " + known + more);
+}
+
+bool has_scalars(const ScalarMesh& surface, const std::string& name) {
+  return std::ranges::find(surface.scalars, name, &VertexScalars::name) != surface.scalars.end();
+}
+
+ColourMap map_of(const ColourScale& scale, const std::string& name) {
+  return scale.map.value_or(name == kErrorName ? ColourMap::cool_warm : ColourMap::viridis);
 }
 
 void add_colour_scale_options(CLI::App& command, ColourScale& scale) {
@@ -56,7 +66,7 @@ void add_colour_scale_options(CLI::App& command, ColourScale& scale) {
           [&scale](const std::string& text) {
             scale.map = parse_name("--color-map", text, kColourMaps);
           },
-          "viridis (default), or cool_warm, which diverges from 0")
+          "viridis (default), or cool_warm, which diverges from 0 (default of error)")
       ->option_text("NAME");
   command
       .add_option_function<std::string>(

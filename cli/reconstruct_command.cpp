@@ -5,6 +5,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "command.hpp"
 #include "difmesh/error.hpp"
@@ -12,9 +14,11 @@
 #include "field_input.hpp"
 #include "json.hpp"
 #include "long_call.hpp"
+#include "mesh_scalars.hpp"
 #include "names.hpp"
 #include "output_file.hpp"
 #include "parse.hpp"
+#include "reference_input.hpp"
 #include "stopwatch.hpp"
 #include "surface_output.hpp"
 #include "text.hpp"
@@ -36,6 +40,7 @@ constexpr const char* kFooter =
     "  difmesh reconstruct drops.nrrd -o drops.ply\n"
     "  difmesh reconstruct drops.npy -o drops.stl --spacing 0.01 --boundary mirror\n"
     "  difmesh reconstruct drops.nrrd -o drops.glb --draco --color-by angle\n"
+    "  difmesh reconstruct ball.nrrd -o ball.glb --color-by error --shape sphere\n"
     "  difmesh reconstruct tank.npy -o tank.ply --spacing 0.01,0.01,0.02 \\\n"
     "      --boundary periodic,periodic,open,open,empty,open --report tank.json\n"
     "  difmesh reconstruct scan.raw -o scan.ply --raw-dims 256,256,128 --raw-type uint8\n"
@@ -47,6 +52,7 @@ constexpr const char* kFooter =
 struct Request {
   FieldInput input;
   SurfaceOutput output;
+  ReferenceInput reference;
   std::string report_path;
   Options options;
   bool quiet = false;
@@ -180,10 +186,17 @@ Reconstruction reconstruct_file(const Request& request, const LoadedField& field
 }
 
 void check_outputs(const Request& request) {
-  check_surface_output(request.output);
+  std::vector<std::string> scalars;
+  if (request.reference.is_given()) {
+    scalars.emplace_back(kErrorName);
+  }
+  check_reference(request.reference);
+  check_surface_output(request.output, scalars);
   check_output("--output", request.output.path, request.input.path);
+  check_output("--output", request.output.path, request.reference.path);
   if (!request.report_path.empty()) {
     check_output("--report", request.report_path, request.input.path);
+    check_output("--report", request.report_path, request.reference.path);
     check_output("--report", request.report_path, request.output.path);
   }
 }
@@ -199,13 +212,18 @@ void run(const Request& request) {
   const Reconstruction result = reconstruct_file(request, field, long_call);
   seconds.reconstruct = watch.lap();
   long_call.done();
+  std::vector<VertexScalars> scalars;
+  if (request.reference.is_given() && !result.mesh.triangles.empty()) {
+    scalars.push_back(errors_of(result.mesh, request.reference, request.quiet));
+  }
 
   std::optional<OutputFile> report;
   if (!request.report_path.empty()) {
     report.emplace(request.report_path, to_text(report_json(request, field, result, seconds)));
   }
   const double cell = *std::min_element(field.grid.spacing.begin(), field.grid.spacing.end());
-  const std::string written = write_surface(request.output, result.mesh, cell);
+  const std::string written =
+      write_surface(request.output, {result.mesh, std::move(scalars)}, cell);
   if (report) {
     report->commit();
   }
@@ -313,6 +331,7 @@ void add_reconstruct_command(CLI::App& program) {
       ->option_text("FILE");
   command.add_flag("--quiet", request->quiet, "Print nothing but errors");
   add_field_options(command, request->input);
+  add_reference_options(command, request->reference);
   command.callback([request] { run(*request); });
 }
 

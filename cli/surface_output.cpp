@@ -36,19 +36,23 @@ std::string written(std::int64_t bytes, int bits, double error) {
   return text + ", coordinates off by " + rounded(error, 3) + " at most";
 }
 
-std::string write_as_gltf(const SurfaceOutput& output, const Mesh& mesh, double cell_size) {
+std::string write_as_gltf(const SurfaceOutput& output, const ScalarMesh& surface,
+                          double cell_size) {
   WriteGltfOptions options;
   if (!output.draco.empty()) {
     options.draco = draco_options(output, cell_size);
   }
+  options.scalars = surface.scalars;
   if (!output.color_by.empty()) {
-    options.scalars.push_back(scalars_of("--color-by", output.color_by, {mesh, {}}));
-    options.colour = ColourBy{output.color_by, output.colours.map.value_or(ColourMap::viridis),
-                              output.colours.range};
+    if (!has_scalars(surface, output.color_by)) {
+      options.scalars.push_back(scalars_of("--color-by", output.color_by, surface));
+    }
+    options.colour =
+        ColourBy{output.color_by, map_of(output.colours, output.color_by), output.colours.range};
   }
   options.up = output.up.value_or(options.up);
   options.metres_per_unit = output.metres_per_unit.value_or(options.metres_per_unit);
-  const GltfReport report = write_gltf(output.path, mesh, options);
+  const GltfReport report = write_gltf(output.path, surface.mesh, options);
   return written(report.bytes, report.position_bits, report.position_error);
 }
 
@@ -85,6 +89,7 @@ std::string kinds_text() {
     text.resize(text.size() + (kind.name.size() < 7 ? 7 - kind.name.size() : 1), ' ');
     text += kind.meaning;
   }
+  text += "\n  error  distance from --shape or --reference";
   return text;
 }
 
@@ -123,7 +128,7 @@ void add_surface_options(CLI::App& command, SurfaceOutput& output) {
       ->option_text("M");
 }
 
-void check_surface_output(const SurfaceOutput& output) {
+void check_surface_output(const SurfaceOutput& output, const std::vector<std::string>& scalars) {
   if (!has_extension(output.path, kMeshExtensions)) {
     throw CLI::ValidationError(
         "--output",
@@ -148,22 +153,30 @@ void check_surface_output(const SurfaceOutput& output) {
   }
   // Wrong words are told before the work begins.
   (void)draco_options(output, 1.0);
+  ScalarMesh promised;
+  for (const std::string& name : scalars) {
+    promised.scalars.push_back({name, {}});
+  }
+  check(!scalars.empty(), gltf || is_drc(output), "--shape and --reference",
+        ".glb, .gltf nor .drc");
   if (!output.color_by.empty()) {
-    (void)scalars_of("--color-by", output.color_by, {});
+    (void)scalars_of("--color-by", output.color_by, promised);
   }
 }
 
-std::string write_surface(const SurfaceOutput& output, const Mesh& mesh, double cell_size) {
+std::string write_surface(const SurfaceOutput& output, const ScalarMesh& surface,
+                          double cell_size) {
   if (output.is_gltf()) {
-    return write_as_gltf(output, mesh, cell_size);
+    return write_as_gltf(output, surface, cell_size);
   }
   if (is_drc(output)) {
     WriteDrcOptions options;
+    options.scalars = surface.scalars;
     options.draco = draco_options(output, cell_size);
-    const DracoReport report = write_drc(output.path, mesh, options);
+    const DracoReport report = write_drc(output.path, surface.mesh, options);
     return written(report.bytes, report.position_bits, report.position_error);
   }
-  write_mesh(output.path, mesh);
+  write_mesh(output.path, surface.mesh);
   return "";
 }
 
