@@ -4,6 +4,7 @@
 #   setup.sh            build, tests and demo
 #   setup.sh --browser  Chromium as well, in which tests open our pages
 #   setup.sh --bench    the benchmarks as well (Google Benchmark, VTK)
+#   setup.sh --paper    what draws figures as well (gnuplot, Chromium), and VTK, which is measured beside ours
 #   setup.sh --fuzz     the search for bad inputs as well (clang's libFuzzer)
 #   setup.sh --tsan     what oneTBB is built with for ThreadSanitizer as well
 set -euo pipefail
@@ -31,7 +32,9 @@ fi
 if [ "${1:-}" = "--bench" ]; then
   packages+=(libbenchmark-dev libvtk9-dev)
 fi
-
+if [ "${1:-}" = "--paper" ]; then
+  packages+=(gnuplot-nox chromium libvtk9-dev)
+fi
 if [ "${1:-}" = "--fuzz" ]; then
   packages+=(clang libclang-rt-14-dev)
 fi

@@ -3,17 +3,15 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <utility>
 #include <vector>
 
-#include "difmesh/normals.hpp"
 #include "difmesh/reconstruct.hpp"
 #include "support/algorithm1.hpp"
+#include "support/crossed_edges.hpp"
 #include "support/dual_edges.hpp"
 #include "support/fractions.hpp"
 #include "support/shapes.hpp"
@@ -21,13 +19,10 @@
 
 namespace {
 
-using difmesh::CellPlane;
 using difmesh::FieldView;
 using difmesh::Grid;
 using difmesh::Index3;
-using difmesh::NormalSource;
 using difmesh::Options;
-using difmesh::Plane;
 using difmesh::Reconstruction;
 using difmesh::Vec3;
 using namespace difmesh::test;
@@ -48,64 +43,21 @@ struct OracleCase {
       : grid(grid_of_case), fractions(std::move(fractions_of_case)) {
     Options options;
     options.edge_ids = true;
-    result = reconstruct(field(), grid, options);
-    std::vector<Index3> cells;
+    result = reconstruct(FieldView::x_fastest(fractions.data(), grid.dims), grid, options);
     for (const std::uint64_t id : result.mesh.edge_ids) {
       dual_edges.push_back(dual_edge(id, grid.dims));
-      cells.push_back(dual_edges.back().node);
-      cells.push_back(dual_edges.back().upper());
     }
-    std::vector<CellPlane> planes(cells.size());
-    cell_planes(field(), grid, cells, options, planes);
-    for (std::size_t v = 0; v < dual_edges.size(); ++v) {
-      edges.push_back(crossed_edge(v, std::span(planes).subspan(2 * v, 2)));
+    edges = crossed_edges(fractions, grid, options, result.mesh.edge_ids);
+    for (const CrossedEdge& edge : edges) {
+      REQUIRE(edge.outer_fraction < 0.5);
+      REQUIRE(edge.inner_fraction >= 0.5);
     }
-  }
-
-  [[nodiscard]] FieldView field() const {
-    return FieldView::x_fastest(fractions.data(), grid.dims);
   }
 
   /// Where the library put a vertex, from the outer cell's centre (0) to the inner one's (1).
   [[nodiscard]] double library_mu(std::size_t vertex) const {
-    const DualEdge& dual = dual_edges[vertex];
-    const CrossedEdge& edge = edges[vertex];
-    const Vec3 outer = grid.cell_centre(edge.direction > 0.0 ? dual.node : dual.upper());
-    return edge.direction * (result.mesh.positions[vertex][dual.axis] - outer[dual.axis]) /
-           grid.spacing[dual.axis];
-  }
-
- private:
-  [[nodiscard]] CrossedEdge crossed_edge(std::size_t vertex,
-                                         std::span<const CellPlane> planes) const {
-    const DualEdge& dual = dual_edges[vertex];
-    const std::array<double, 2> ends{fractions[element(dual.node, grid.dims)],
-                                     fractions[element(dual.upper(), grid.dims)]};
-    const std::size_t outer = ends[0] < ends[1] ? 0 : 1;
-    CrossedEdge edge;
-    edge.spacing = grid.spacing;
-    edge.axis = static_cast<int>(dual.axis);
-    edge.direction = outer == 0 ? 1.0 : -1.0;
-    edge.outer_fraction = ends[outer];
-    edge.inner_fraction = ends[1 - outer];
-    REQUIRE(edge.outer_fraction < 0.5);
-    REQUIRE(edge.inner_fraction >= 0.5);
-    edge.outer_plane = plane_on(edge, planes[outer], edge.outer_fraction);
-    edge.inner_plane = plane_on(edge, planes[1 - outer], edge.inner_fraction);
-    return edge;
-  }
-
-  /// A cell without gradient has its plane across the edge.
-  [[nodiscard]] static Plane plane_on(const CrossedEdge& edge, const CellPlane& cell,
-                                      double fraction) {
-    if (cell.source != NormalSource::none) {
-      return cell.plane;
-    }
-    const auto axis = static_cast<std::size_t>(edge.axis);
-    Plane plane;
-    plane.normal[axis] = -edge.direction;
-    plane.offset = (fraction - 0.5) * edge.spacing[axis];
-    return plane;
+    return share_along(edges[vertex], result.mesh.edge_ids[vertex], grid,
+                       result.mesh.positions[vertex]);
   }
 };
 
