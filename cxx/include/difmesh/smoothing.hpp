@@ -78,7 +78,7 @@ struct CurvatureFlowOptions {
 /// R shrinks to sqrt(R² - 4 time steps), about. Boundary vertices stay. Triangles flatter than 1e-6
 /// of their longest side count as that high. Where the gradients do not reach the tolerance in 10^4
 /// iterations, what they have reached is taken.
-/// Cost: O(vertices) per iteration of the gradients, the more the longer the time; some 5 µs per
+/// Cost: O(vertices) per iteration of the gradients, the more the longer the time; 5 to 13 µs per
 /// vertex for a step of the square of the edges' length.
 /// Source: M. Desbrun, M. Meyer, P. Schroeder, A. H. Barr, Implicit fairing of irregular meshes
 /// using diffusion and curvature flow, SIGGRAPH 1999.
