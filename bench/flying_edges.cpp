@@ -1,5 +1,6 @@
 #include "flying_edges.hpp"
 
+#include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
 #include <vtkFlyingEdges3D.h>
 #include <vtkImageData.h>
@@ -7,6 +8,7 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSMPTools.h>
+#include <vtkVersion.h>
 
 namespace difmesh::bench {
 
@@ -14,11 +16,24 @@ struct FlyingEdges::Image {
   vtkNew<vtkImageData> data;
 };
 
-FlyingEdges::FlyingEdges(std::vector<float>& field, int n) : image_(new Image) {
-  image_->data->SetDimensions(n, n, n);
-  vtkNew<vtkFloatArray> values;
+namespace {
+
+template <class Values, class T>
+void set_values(vtkImageData* data, std::vector<T>& field, int n) {
+  data->SetDimensions(n, n, n);
+  vtkNew<Values> values;
   values->SetArray(field.data(), static_cast<vtkIdType>(field.size()), 1);
-  image_->data->GetPointData()->SetScalars(values);
+  data->GetPointData()->SetScalars(values);
+}
+
+}  // namespace
+
+FlyingEdges::FlyingEdges(std::vector<float>& field, int n) : image_(new Image) {
+  set_values<vtkFloatArray>(image_->data, field, n);
+}
+
+FlyingEdges::FlyingEdges(std::vector<double>& field, int n) : image_(new Image) {
+  set_values<vtkDoubleArray>(image_->data, field, n);
 }
 
 FlyingEdges::~FlyingEdges() = default;
@@ -40,6 +55,10 @@ void FlyingEdges::set_threads(int threads) {
 
 const char* FlyingEdges::back_end() {
   return vtkSMPTools::GetBackend();
+}
+
+const char* FlyingEdges::version() {
+  return vtkVersion::GetVTKVersion();
 }
 
 }  // namespace difmesh::bench

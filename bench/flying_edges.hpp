@@ -1,5 +1,5 @@
 #pragma once
-// VTK's vtkFlyingEdges3D on a float32 field. Apart from the rest because VTK 9.1's headers are not C++20.
+// VTK's vtkFlyingEdges3D on a field. Apart from the rest because VTK 9.1's headers are not C++20.
 
 #include <memory>
 #include <vector>
@@ -10,6 +10,7 @@ class FlyingEdges {
  public:
   /// \param field n³ values, which must outlive this
   FlyingEdges(std::vector<float>& field, int n);
+  FlyingEdges(std::vector<double>& field, int n);
   ~FlyingEdges();
   FlyingEdges(const FlyingEdges&) = delete;
   FlyingEdges& operator=(const FlyingEdges&) = delete;
@@ -19,6 +20,7 @@ class FlyingEdges {
 
   static void set_threads(int threads);
   static const char* back_end();
+  static const char* version();
 
  private:
   struct Image;

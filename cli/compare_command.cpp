@@ -9,13 +9,13 @@
 #include "command.hpp"
 #include "difmesh/distance.hpp"
 #include "difmesh/error.hpp"
-#include "difmesh/io/mesh_file.hpp"
 #include "difmesh/measure.hpp"
 #include "json.hpp"
 #include "long_call.hpp"
 #include "mesh_facts.hpp"
 #include "output_file.hpp"
 #include "parse.hpp"
+#include "reference_input.hpp"
 #include "shape_options.hpp"
 #include "text.hpp"
 
@@ -39,9 +39,7 @@ constexpr const char* kFooter =
 
 struct Request {
   std::string mesh_path;
-  std::string shape_name;
-  ShapeInput shape;
-  std::string reference_path;
+  ReferenceInput reference;
   std::string json_path;
   int threads = 0;
 };
@@ -69,20 +67,13 @@ Error error_in(const std::string& path, const Error& error) {
   return {code, "'" + path + "': " + error.what()};
 }
 
-Mesh read_triangles(const std::string& path) {
-  Mesh mesh = read_mesh(path);
-  if (mesh.triangles.empty()) {
-    throw Error(ErrorCode::file_format, "'" + path + "': the mesh has no triangles");
-  }
-  return mesh;
-}
-
 std::optional<double> volume_of(const Mesh& mesh) {
   return enclosed_volume(measure(mesh));
 }
 
 Comparison compare_with_shape(const Request& request, const DistanceOptions& options) {
-  const Shape shape = request.shape.make(parse_shape("--shape", request.shape_name));
+  const Shape shape =
+      request.reference.shape.make(parse_shape("--shape", request.reference.shape_name));
   const Mesh mesh = read_triangles(request.mesh_path);
   Comparison comparison;
   try {
@@ -98,15 +89,15 @@ Comparison compare_with_shape(const Request& request, const DistanceOptions& opt
 
 Comparison compare_with_mesh(const Request& request, const DistanceOptions& options) {
   const Mesh mesh = read_triangles(request.mesh_path);
-  const Mesh reference = read_triangles(request.reference_path);
+  const Mesh reference = read_triangles(request.reference.path);
   Comparison comparison;
   try {
     comparison.both_ways = distance(mesh, reference, options);
   } catch (const Error& error) {
-    throw error_in(request.mesh_path + "' and '" + request.reference_path, error);
+    throw error_in(request.mesh_path + "' and '" + request.reference.path, error);
   }
   comparison.to_reference = comparison.both_ways->to_reference;
-  comparison.reference = {{"path", request.reference_path}};
+  comparison.reference = {{"path", request.reference.path}};
   comparison.volume = volume_of(mesh);
   comparison.reference_volume = volume_of(reference);
   return comparison;
@@ -194,24 +185,21 @@ void print_volumes(std::ostream& out, const Comparison& comparison) {
 
 void print_comparison(std::ostream& out, const Request& request, const Comparison& comparison) {
   print_fact(out, "mesh", request.mesh_path);
-  print_fact(out, "reference",
-             request.shape_name.empty() ? request.reference_path : request.shape_name);
+  print_fact(
+      out, "reference",
+      request.reference.shape_name.empty() ? request.reference.path : request.reference.shape_name);
   print_distances(out, comparison);
   print_volumes(out, comparison);
 }
 
 void check_request(const Request& request) {
-  const bool with_shape = !request.shape_name.empty();
-  if (with_shape == !request.reference_path.empty()) {
-    throw CLI::ValidationError("--shape", with_shape ? "cannot be used together with --reference"
-                                                     : "needed, or --reference");
-  }
-  if (!with_shape && !request.shape.given.empty()) {
-    throw CLI::ValidationError(request.shape.given.front(), "only with --shape");
+  check_reference(request.reference);
+  if (!request.reference.is_given()) {
+    throw CLI::ValidationError("--shape", "needed, or --reference");
   }
   if (!request.json_path.empty()) {
     check_output("--json", request.json_path, request.mesh_path);
-    check_output("--json", request.json_path, request.reference_path);
+    check_output("--json", request.json_path, request.reference.path);
   }
 }
 
@@ -222,8 +210,9 @@ void run(const Request& request) {
   DistanceOptions options;
   options.threads = request.threads;
   options.progress = long_call.progress();
-  const Comparison comparison = request.shape_name.empty() ? compare_with_mesh(request, options)
-                                                           : compare_with_shape(request, options);
+  const Comparison comparison = request.reference.shape_name.empty()
+                                    ? compare_with_mesh(request, options)
+                                    : compare_with_shape(request, options);
   long_call.done();
   if (as_json) {
     OutputFile(request.json_path, to_text(comparison_json(request, comparison))).commit();
@@ -243,19 +232,11 @@ void add_compare_command(CLI::App& program) {
                   "Mesh to measure (.ply, .obj, .off, .stl, .glb, .gltf, .drc)")
       ->required();
   command
-      .add_option("--shape", request->shape_name,
-                  "What it should be: sphere, ellipsoid, torus, genus, smooth_box or\ngolf_ball")
-      ->option_text("SHAPE");
-  command
-      .add_option("--reference", request->reference_path,
-                  "What it should be: a mesh (.ply, .obj, .off, .stl, .glb, .gltf, .drc)")
-      ->option_text("MESHFILE");
-  command
       .add_option("--json", request->json_path,
                   "Write the facts as JSON to FILE instead of text; - is standard output")
       ->option_text("FILE");
   add_threads_option(command, "The distances do", request->threads);
-  add_shape_options(command, request->shape);
+  add_reference_options(command, request->reference);
   command.callback([request] { run(*request); });
 }
 

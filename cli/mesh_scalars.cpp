@@ -83,7 +83,16 @@ VertexScalars scalars_of(const std::string& option, const std::string& word,
     }
     known += (&kind == &kKinds.front() ? "" : ", ") + std::string(kind.name);
   }
-  throw CLI::ValidationError(option, "'" + word + "' is none of " + known);
+  const std::string more = word == kErrorName ? "; it needs --shape or --reference" : "";
+  throw CLI::ValidationError(option, "'" + word + "' is none of " + known + more);
+}
+
+bool has_scalars(const ScalarMesh& surface, const std::string& name) {
+  return std::ranges::find(surface.scalars, name, &VertexScalars::name) != surface.scalars.end();
+}
+
+ColourMap map_of(const ColourScale& scale, const std::string& name) {
+  return scale.map.value_or(name == kErrorName ? ColourMap::cool_warm : ColourMap::viridis);
 }
 
 void add_colour_scale_options(CLI::App& command, ColourScale& scale) {
@@ -93,7 +102,7 @@ void add_colour_scale_options(CLI::App& command, ColourScale& scale) {
           [&scale](const std::string& text) {
             scale.map = parse_name("--color-map", text, kColourMaps);
           },
-          "viridis (default), or cool_warm, which diverges from 0")
+          "viridis (default), or cool_warm, which diverges from 0 (default of error)")
       ->option_text("NAME");
   command
       .add_option_function<std::string>(

@@ -17,6 +17,9 @@
 
 namespace difmesh::cli {
 
+/// The name of the distances from what a surface should be.
+inline constexpr const char* kErrorName = "error";
+
 /// One kind of scalars. To add one: a row in the table of mesh_scalars.cpp.
 struct ScalarKind {
   std::string_view name;
@@ -40,11 +43,16 @@ struct ScalarKind {
 [[nodiscard]] VertexScalars scalars_of(const std::string& option, const std::string& word,
                                        const ScalarMesh& surface);
 
+[[nodiscard]] bool has_scalars(const ScalarMesh& surface, const std::string& name);
+
 /// How numbers become colours, as far as the command line says.
 struct ColourScale {
   std::optional<ColourMap> map;
   std::optional<std::array<double, 2>> range;
 };
+
+/// The map that was asked for, else the one that suits the scalars of that name.
+[[nodiscard]] ColourMap map_of(const ColourScale& scale, const std::string& name);
 
 /// Adds --color-map and --color-range. `scale` must outlive the parsing.
 void add_colour_scale_options(CLI::App& command, ColourScale& scale);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "command.hpp"
@@ -16,9 +17,11 @@
 #include "field_input.hpp"
 #include "json.hpp"
 #include "long_call.hpp"
+#include "mesh_scalars.hpp"
 #include "names.hpp"
 #include "output_file.hpp"
 #include "parse.hpp"
+#include "reference_input.hpp"
 #include "smoothing.hpp"
 #include "stopwatch.hpp"
 #include "surface_output.hpp"
@@ -42,6 +45,7 @@ constexpr const char* kFooter =
     "  difmesh reconstruct drops.npy -o drops.stl --spacing 0.01 --boundary mirror\n"
     "  difmesh reconstruct drops.nrrd -o drops.glb --draco --color-by mean-curvature\n"
     "  difmesh reconstruct drops.nrrd -o drops.ply --smooth constrained --curvature\n"
+    "  difmesh reconstruct ball.nrrd -o ball.glb --color-by error --shape sphere\n"
     "  difmesh reconstruct tank.npy -o tank.ply --spacing 0.01,0.01,0.02 \\\n"
     "      --boundary periodic,periodic,open,open,empty,open --report tank.json\n"
     "  difmesh reconstruct scan.raw -o scan.ply --raw-dims 256,256,128 --raw-type uint8\n"
@@ -53,6 +57,7 @@ constexpr const char* kFooter =
 struct Request {
   FieldInput input;
   SurfaceOutput output;
+  ReferenceInput reference;
   std::string report_path;
   Options options;
   std::string mollify;  ///< empty: not asked for; "true": the usual radius; else a radius
@@ -261,10 +266,17 @@ std::vector<VertexScalars> scalars_for(const Request& request, const Mesh& mesh)
 
 void check_outputs(const Request& request) {
   (void)mollify_radius(request);
-  check_surface_output(request.output);
+  std::vector<std::string> scalars;
+  if (request.reference.is_given()) {
+    scalars.emplace_back(kErrorName);
+  }
+  check_reference(request.reference);
+  check_surface_output(request.output, scalars);
   check_output("--output", request.output.path, request.input.path);
+  check_output("--output", request.output.path, request.reference.path);
   if (!request.report_path.empty()) {
     check_output("--report", request.report_path, request.input.path);
+    check_output("--report", request.report_path, request.reference.path);
     check_output("--report", request.report_path, request.output.path);
   }
 }
@@ -279,7 +291,10 @@ void run(const Request& request) {
   LongCall long_call("reconstructing", request.quiet);
   const Reconstruction result = reconstruct_file(request, field, long_call);
   long_call.done();
-  const std::vector<VertexScalars> scalars = scalars_for(request, result.mesh);
+  std::vector<VertexScalars> scalars = scalars_for(request, result.mesh);
+  if (request.reference.is_given() && !result.mesh.triangles.empty()) {
+    scalars.push_back(errors_of(result.mesh, request.reference, request.quiet));
+  }
   seconds.reconstruct = watch.lap();
 
   std::optional<OutputFile> report;
@@ -287,7 +302,8 @@ void run(const Request& request) {
     report.emplace(request.report_path, to_text(report_json(request, field, result, seconds)));
   }
   const double cell = *std::min_element(field.grid.spacing.begin(), field.grid.spacing.end());
-  const std::string written = write_surface(request.output, result.mesh, scalars, cell);
+  const std::string written =
+      write_surface(request.output, {result.mesh, std::move(scalars)}, cell);
   if (report) {
     report->commit();
   }
@@ -419,6 +435,7 @@ void add_reconstruct_command(CLI::App& program) {
       ->option_text("FILE");
   command.add_flag("--quiet", request->quiet, "Print nothing but errors");
   add_field_options(command, request->input);
+  add_reference_options(command, request->reference);
   command.callback([request] { run(*request); });
 }
 

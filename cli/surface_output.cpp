@@ -37,27 +37,23 @@ std::string written(std::int64_t bytes, int bits, double error) {
   return text + ", coordinates off by " + rounded(error, 3) + " at most";
 }
 
-std::string write_as_gltf(const SurfaceOutput& output, const Mesh& mesh,
-                          const std::vector<VertexScalars>& scalars, double cell_size) {
+std::string write_as_gltf(const SurfaceOutput& output, const ScalarMesh& surface,
+                          double cell_size) {
   WriteGltfOptions options;
-  options.scalars = scalars;
   if (!output.draco.empty()) {
     options.draco = draco_options(output, cell_size);
   }
+  options.scalars = surface.scalars;
   if (!output.color_by.empty()) {
     const std::string name = scalars_name(output.color_by);
-    const bool is_there =
-        std::any_of(scalars.begin(), scalars.end(),
-                    [&name](const VertexScalars& one) { return one.name == name; });
-    if (!is_there) {
-      options.scalars.push_back(scalars_of("--color-by", output.color_by, {mesh, {}}));
+    if (!has_scalars(surface, name)) {
+      options.scalars.push_back(scalars_of("--color-by", output.color_by, surface));
     }
-    options.colour =
-        ColourBy{name, output.colours.map.value_or(ColourMap::viridis), output.colours.range};
+    options.colour = ColourBy{name, map_of(output.colours, name), output.colours.range};
   }
   options.up = output.up.value_or(options.up);
   options.metres_per_unit = output.metres_per_unit.value_or(options.metres_per_unit);
-  const GltfReport report = write_gltf(output.path, mesh, options);
+  const GltfReport report = write_gltf(output.path, surface.mesh, options);
   return written(report.bytes, report.position_bits, report.position_error);
 }
 
@@ -94,6 +90,7 @@ std::string kinds_text() {
     text.resize(text.size() + (kind.name.size() < 20 ? 20 - kind.name.size() : 1), ' ');
     text += kind.meaning;
   }
+  text += "\n  error  distance from --shape or --reference";
   return text;
 }
 
@@ -134,7 +131,7 @@ void add_surface_options(CLI::App& command, SurfaceOutput& output) {
       ->option_text("M");
 }
 
-void check_surface_output(const SurfaceOutput& output) {
+void check_surface_output(const SurfaceOutput& output, const std::vector<std::string>& scalars) {
   if (!has_extension(output.path, kMeshExtensions)) {
     throw CLI::ValidationError(
         "--output",
@@ -161,26 +158,32 @@ void check_surface_output(const SurfaceOutput& output) {
   }
   // Wrong words are told before the work begins.
   (void)draco_options(output, 1.0);
+  ScalarMesh promised;
+  for (const std::string& name : scalars) {
+    promised.scalars.push_back({name, {}});
+  }
+  check(!scalars.empty(), gltf || is_drc(output), "--shape and --reference",
+        ".glb, .gltf nor .drc");
   if (!output.color_by.empty()) {
-    (void)scalars_of("--color-by", output.color_by, {});
+    (void)scalars_of("--color-by", output.color_by, promised);
   }
 }
 
-std::string write_surface(const SurfaceOutput& output, const Mesh& mesh,
-                          const std::vector<VertexScalars>& scalars, double cell_size) {
+std::string write_surface(const SurfaceOutput& output, const ScalarMesh& surface,
+                          double cell_size) {
   if (output.is_gltf()) {
-    return write_as_gltf(output, mesh, scalars, cell_size);
+    return write_as_gltf(output, surface, cell_size);
   }
   if (is_drc(output)) {
     WriteDrcOptions options;
-    options.scalars = scalars;
+    options.scalars = surface.scalars;
     options.draco = draco_options(output, cell_size);
-    const DracoReport report = write_drc(output.path, mesh, options);
+    const DracoReport report = write_drc(output.path, surface.mesh, options);
     return written(report.bytes, report.position_bits, report.position_error);
   }
   WriteMeshOptions options;
-  options.scalars = scalars;
-  write_mesh(output.path, mesh, options);
+  options.scalars = surface.scalars;
+  write_mesh(output.path, surface.mesh, options);
   return "";
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "difmesh/io/gltf_file.hpp"
-#include "difmesh/mesh.hpp"
+#include "difmesh/io/vertex_scalars.hpp"
 #include "mesh_scalars.hpp"
 
 namespace difmesh::cli {
@@ -30,12 +30,13 @@ struct SurfaceOutput {
 
 /// Adds --draco, --curvature and the others. `output` must outlive the parsing.
 void add_surface_options(CLI::App& command, SurfaceOutput& output);
+/// \param scalars names that the surface will have scalars of
 /// \throw CLI::ValidationError for an unknown extension, and options that the format does not have
-void check_surface_output(const SurfaceOutput& output);
-/// Writes the mesh with scalars; \return size and error in words, for formats that have more to say.
+void check_surface_output(const SurfaceOutput& output, const std::vector<std::string>& scalars);
+/// Writes the mesh; \return size and error in words, for formats that have more to say.
+/// \param surface its scalars are written where the format has them
 /// \param cell_size Δx, for the choice of Draco's bits
 /// \throw Error
-std::string write_surface(const SurfaceOutput& output, const Mesh& mesh,
-                          const std::vector<VertexScalars>& scalars, double cell_size);
+std::string write_surface(const SurfaceOutput& output, const ScalarMesh& surface, double cell_size);
 
 }  // namespace difmesh::cli

@@ -21,6 +21,7 @@
 #include "names.hpp"
 #include "output_file.hpp"
 #include "parse.hpp"
+#include "reference_input.hpp"
 #include "text.hpp"
 #include "view_page.hpp"
 
@@ -45,6 +46,7 @@ constexpr const char* kFooter =
     "Examples:\n"
     "  difmesh view drops.nrrd -o drops.html                     linear against plic\n"
     "  difmesh view bunny.glb -o bunny.html --color-by angle\n"
+    "  difmesh view ball.nrrd -o ball.html --color-by error --shape sphere\n"
     "  difmesh view part.stl part_again.ply -o both.html --up z\n";
 
 struct Request {
@@ -53,6 +55,7 @@ struct Request {
   std::string page_path;
   std::string color_by;
   ColourScale colours;
+  ReferenceInput reference;
   UpAxis up = UpAxis::y;
   bool quiet = false;
 };
@@ -118,9 +121,14 @@ std::vector<Shown> load_all(const Request& request) {
     second.path = request.second_path;
     load(request, second, false, shown);
   }
-  for (const Shown& one : shown) {
+  for (Shown& one : shown) {
     if (one.surface.mesh.triangles.empty()) {
       throw Error(ErrorCode::invalid_value, "'" + one.name + "': the surface is empty");
+    }
+    if (request.reference.is_given()) {
+      std::erase_if(one.surface.scalars,
+                    [](const VertexScalars& scalars) { return scalars.name == kErrorName; });
+      one.surface.scalars.push_back(errors_of(one.surface.mesh, request.reference, request.quiet));
     }
   }
   return shown;
@@ -169,7 +177,7 @@ Json scene_json(const Request& request, const std::vector<Shown>& shown) {
     scene["surfaces"].push_back(
         {{"name", one.name}, {"glb", encode_glb_base64(one.surface.mesh, options)}});
   }
-  const ColourMap map = request.colours.map.value_or(ColourMap::viridis);
+  const ColourMap map = map_of(request.colours, request.color_by);
   scene["colours"] = colour_table(map);
   scene["diverging"] = map == ColourMap::cool_warm;
   scene["colorBy"] = scalars_name(request.color_by);
@@ -188,7 +196,9 @@ std::string without_tags(std::string json) {
 }
 
 void run(const Request& request) {
+  check_reference(request.reference);
   check_output("--output", request.page_path, request.input.path);
+  check_output("--output", request.page_path, request.reference.path);
   if (!request.second_path.empty()) {
     check_output("--output", request.page_path, request.second_path);
   }
@@ -249,6 +259,7 @@ void add_view_command(CLI::App& program) {
   add_colour_options(command, *request);
   command.add_flag("--quiet", request->quiet, "Print nothing but errors");
   add_field_options(command, request->input);
+  add_reference_options(command, request->reference);
   command.callback([request] { run(*request); });
 }
 

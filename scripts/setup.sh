@@ -4,6 +4,7 @@
 #   setup.sh            build, tests and demo
 #   setup.sh --browser  Chromium as well, in which tests open our pages
 #   setup.sh --bench    the benchmarks as well (Google Benchmark, VTK)
+#   setup.sh --bench-others  what is timed beside ours from Python (scikit-image, OpenVDB)
 #   setup.sh --paper    what draws figures as well (gnuplot, Chromium), and VTK, which is measured beside ours
 #   setup.sh --fuzz     the search for bad inputs as well (clang's libFuzzer)
 #   setup.sh --tsan     what oneTBB is built with for ThreadSanitizer as well
@@ -31,6 +32,9 @@ if [ "${1:-}" = "--browser" ]; then
 fi
 if [ "${1:-}" = "--bench" ]; then
   packages+=(libbenchmark-dev libvtk9-dev)
+fi
+if [ "${1:-}" = "--bench-others" ]; then
+  packages+=(libbenchmark-dev python3-skimage python3-openvdb)
 fi
 if [ "${1:-}" = "--paper" ]; then
   packages+=(gnuplot-nox chromium libvtk9-dev)

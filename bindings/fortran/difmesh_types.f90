@@ -24,7 +24,9 @@ module difmesh_types
   integer(c_int32_t), parameter, public :: &
     dif_part_threads = 1, &
     dif_part_files = 2, &
-    dif_part_distance = 3
+    dif_part_distance = 3, &
+    dif_part_gltf = 4, &
+    dif_part_draco = 5
 
   integer(c_int32_t), parameter, public :: &
     dif_float32 = 1, &

@@ -31,6 +31,16 @@ bool is_gltf(std::optional<MeshFormat> format) {
   return format == MeshFormat::glb || format == MeshFormat::gltf;
 }
 
+/// Instead of the io library's own words, so that callers can tell.
+void check_parts(std::optional<MeshFormat> format, bool draco) {
+  if (is_gltf(format) && dif_has(DIF_PART_GLTF) == 0) {
+    throw capi::Failure(DIF_ERROR_UNSUPPORTED, "this build of the library has no glTF");
+  }
+  if ((draco || format == MeshFormat::drc) && dif_has(DIF_PART_DRACO) == 0) {
+    throw capi::Failure(DIF_ERROR_UNSUPPORTED, "this build of the library has no Draco");
+  }
+}
+
 /// The options of a call, and the format that they or the path ask for.
 struct Request {
   dif_mesh_write_options given;
@@ -77,6 +87,7 @@ Request to_request(const dif_mesh& mesh, const char* path, const dif_mesh_write_
     }
   }
   check_format(request, path);
+  check_parts(request.format, given.draco == 1);
   return request;
 }
 
@@ -163,6 +174,8 @@ dif_status dif_mesh_write(const dif_mesh* mesh, const char* path,
 dif_status dif_mesh_read(const char* path, dif_mesh** mesh) {
   return capi::guarded([&] {
     dif_mesh*& handle = capi::out_handle(mesh, "mesh");
-    handle = new dif_mesh(to_mesh(difmesh::read_scalar_mesh(&capi::required(path, "path"))));
+    const char* name = &capi::required(path, "path");
+    check_parts(difmesh::mesh_format_of(name), false);
+    handle = new dif_mesh(to_mesh(difmesh::read_scalar_mesh(name)));
   });
 }

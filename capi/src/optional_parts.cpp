@@ -27,6 +27,14 @@ int32_t dif_has(int32_t part) {
     case DIF_PART_DISTANCE:
       return 1;
 #endif
+#ifdef DIFMESH_WITH_GLTF
+    case DIF_PART_GLTF:
+      return 1;
+#endif
+#ifdef DIFMESH_WITH_DRACO
+    case DIF_PART_DRACO:
+      return 1;
+#endif
     default:
       return 0;
   }

@@ -1,24 +1,22 @@
 #include "classify.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "difmesh/error.hpp"
-
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
+#include "kernels.hpp"
 
 namespace difmesh::detail {
 namespace {
 
-// Cells are taken in groups of 64: one word of bits. Sums are kept in eight lanes of a group, so
-// that the compiler may use vectors of any width and still gets the same bits.
-constexpr std::int64_t kGroup = 64;
-constexpr std::size_t kLanes = 8;
+// Sums are kept in eight lanes of a group of cells, as the kernels do it.
+constexpr std::size_t kLaneCount = 8;
+// Groups that a kernel takes at once.
+constexpr std::int64_t kMostGroups = 64;
 
 struct Statistics {
   std::int64_t interfacial = 0;
@@ -42,38 +40,6 @@ struct Statistics {
 };
 
 template <class T>
-std::uint64_t inside_bits(const T* values) {
-  std::uint64_t word = 0;
-#ifdef __SSE2__
-  if constexpr (std::is_same_v<T, float>) {
-    const __m128 half = _mm_set1_ps(0.5f);
-    for (int i = 0; i < 16; ++i) {
-      const int four = _mm_movemask_ps(_mm_cmpge_ps(_mm_loadu_ps(values + 4 * i), half));
-      word |= static_cast<std::uint64_t>(four) << (4 * i);
-    }
-    return word;
-  } else if constexpr (std::is_same_v<T, double>) {
-    const __m128d half = _mm_set1_pd(0.5);
-    for (int i = 0; i < 32; ++i) {
-      const int two = _mm_movemask_pd(_mm_cmpge_pd(_mm_loadu_pd(values + 2 * i), half));
-      word |= static_cast<std::uint64_t>(two) << (2 * i);
-    }
-    return word;
-  }
-#endif
-  for (int i = 0; i < kGroup; ++i) {
-    word |= static_cast<std::uint64_t>(fraction_of(values[i]) >= 0.5) << i;
-  }
-  return word;
-}
-
-// True if all values of a group equal the first, bit for bit.
-template <class T>
-bool is_uniform(const T* values) {
-  return std::memcmp(values, values + 1, static_cast<std::size_t>(kGroup - 1) * sizeof(T)) == 0;
-}
-
-template <class T>
 class RowClassifier {
  public:
   RowClassifier(double tolerance, double bound) : tolerance_(tolerance), bound_(bound) {
@@ -83,40 +49,65 @@ class RowClassifier {
     }
   }
 
-  // Bits of up to 64 cells; adds their facts to the statistics. `number` is that of the first cell.
-  std::uint64_t group(const T* values, std::int64_t stride, std::int64_t count, std::int64_t number,
-                      Statistics& statistics) const {
-    T copy[kGroup] = {};
-    if (stride != 1 || count < kGroup) {
-      for (std::int64_t i = 0; i < count; ++i) {
-        copy[i] = values[i * stride];
-      }
-      values = copy;
-    }
-    if (count == kGroup && (values[0] == T(0) || fraction_of(values[0]) == 1.0) &&
-        is_uniform(values)) {
-      if constexpr (std::is_integral_v<T>) {
-        statistics.sum += values[0] != 0 ? kGroup : 0;
-        return values[0] != 0 ? ~std::uint64_t{0} : 0;
-      } else if (values[0] == T(0) || values[0] == T(1)) {
-        statistics.sum += values[0] != T(0) ? kGroup : 0;
-        return values[0] != T(0) ? ~std::uint64_t{0} : 0;
+  // Cells [from, to) of a row in memory: calls visit(place, bits, count) for each group, the first at
+  // place `from`. `number` is that of the row's first cell.
+  template <class Visit>
+  void row(const T* cells, std::int64_t stride, std::int64_t from, std::int64_t to,
+           std::int64_t number, Statistics& statistics, const Visit& visit) const {
+    std::int64_t i = from;
+    if constexpr (!std::is_integral_v<T>) {
+      while (stride == 1 && i + kGroup <= to) {
+        i += whole_groups(cells, i, to, number, statistics, visit);
       }
     }
-    mixed(values, count, number, statistics);
-    const std::uint64_t bits = inside_bits(values);
-    return count == kGroup ? bits : bits & below(static_cast<int>(count));
+    for (; i < to; i += kGroup) {
+      const std::int64_t count = std::min(kGroup, to - i);
+      T values[kGroup] = {};
+      for (std::int64_t n = 0; n < count; ++n) {
+        values[n] = cells[(i + n) * stride];
+      }
+      mixed(values, count, number + i, statistics);
+      visit(i, inside_bits(values), count);
+    }
   }
 
  private:
+  template <class Visit>
+  std::int64_t whole_groups(const T* cells, std::int64_t from, std::int64_t to, std::int64_t number,
+                            Statistics& statistics, const Visit& visit) const {
+    const std::int64_t groups = std::min(kMostGroups, (to - from) / kGroup);
+    GroupFacts facts;
+    facts.interfacial = statistics.interfacial;
+    facts.sum = statistics.sum;
+    classify_kernel(kernels_, T{})({cells + from, groups, low_, high_}, facts);
+    statistics.interfacial = facts.interfacial;
+    statistics.sum = facts.sum;
+    for (std::uint64_t left = facts.outside; left != 0; left &= left - 1) {
+      const std::int64_t start = from + kGroup * std::countr_zero(left);
+      look_outside(cells + start, kGroup, number + start, statistics);
+    }
+    for (std::int64_t group = 0; group < groups; ++group) {
+      visit(from + group * kGroup, facts.inside[group], kGroup);
+    }
+    return groups * kGroup;
+  }
+
+  static std::uint64_t inside_bits(const T* values) {
+    std::uint64_t word = 0;
+    for (int i = 0; i < kGroup; ++i) {
+      word |= static_cast<std::uint64_t>(fraction_of(values[i]) >= 0.5) << i;
+    }
+    return word;
+  }
+
   // Counts have the width of the elements, which lets the compiler count in vectors.
   using Count = std::conditional_t<sizeof(T) == 8, std::int64_t, std::int32_t>;
 
   void mixed(const T* values, std::int64_t count, std::int64_t number,
              Statistics& statistics) const {
-    double lanes[kLanes] = {};
-    for (std::size_t i = 0; i < static_cast<std::size_t>(kGroup); i += kLanes) {
-      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    double lanes[kLaneCount] = {};
+    for (std::size_t i = 0; i < static_cast<std::size_t>(kGroup); i += kLaneCount) {
+      for (std::size_t lane = 0; lane < kLaneCount; ++lane) {
         lanes[lane] += fraction_of(values[i + lane]);
       }
     }
@@ -164,6 +155,7 @@ class RowClassifier {
     return static_cast<double>(rounded) <= limit ? rounded : std::nextafter(rounded, T(-2));
   }
 
+  const Kernels& kernels_ = kernels();
   double tolerance_;
   double bound_;
   T low_{};
@@ -181,18 +173,20 @@ void classify_row(const BlockField& field, const RowClassifier<T>& classifier, c
   const std::int64_t number = (start[2] * view.dims[1] + start[1]) * view.dims[0];
   const auto run = [&](std::int64_t from, std::int64_t to, std::uint64_t* words,
                        Statistics& facts) {
-    for (std::int64_t i = from; i < to; i += kGroup) {
-      const std::int64_t count = std::min(kGroup, to - i);
-      const std::uint64_t bits =
-          classifier.group(row + i * view.strides[0], view.strides[0], count, number + i, facts);
-      if (words != nullptr) {
-        const std::int64_t w = (i - from) / kGroup;
-        words[w] |= bits << 1;
-        if (bits >> 63 != 0) {
-          words[w + 1] |= 1;
-        }
-      }
-    }
+    classifier.row(row, view.strides[0], from, to, number, facts,
+                   [&](std::int64_t place, std::uint64_t bits, std::int64_t count) {
+                     if (words == nullptr) {
+                       return;
+                     }
+                     if (count < kGroup) {
+                       bits &= below(static_cast<int>(count));
+                     }
+                     const std::int64_t w = (place - from) / kGroup;
+                     words[w] |= bits << 1;
+                     if (bits >> 63 != 0) {
+                       words[w + 1] |= 1;
+                     }
+                   });
   };
   const std::int64_t first = field.block.ghost_low[0];
   const std::int64_t last = first + field.block.dims[0];
@@ -203,6 +197,7 @@ void classify_row(const BlockField& field, const RowClassifier<T>& classifier, c
   } else {
     const std::int64_t j = start[1] - field.block.ghost_low[1] + 1;
     const std::int64_t k = start[2] - field.block.ghost_low[2] + 1;
+    nodes->clear_row(j, k);
     run(first, last, nodes->row(j, k), statistics);
   }
   run(last, view.dims[0], nullptr, ghosts);
@@ -234,18 +229,24 @@ class BeyondFiller {
  public:
   BeyondFiller(const BlockField& field, NodeBits& nodes) : field_(field), nodes_(nodes) {}
 
+  // The ends of a row of the block's cells. Thread safety: for different rows.
+  void set_ends(std::int64_t j, std::int64_t k) {
+    if (nodes_.first()[0] == 0) {
+      set_end(0, j, k);
+    }
+    set_end(nodes_.last()[0], j, k);
+  }
+
+  // All other rows. \pre the rows of cells are complete
   void fill() {
     const Index3& first = nodes_.first();
     const Index3& last = nodes_.last();
-    for (std::int64_t k = 1; k < last[2]; ++k) {
-      for (std::int64_t j = 1; j < last[1]; ++j) {
-        set_ends(j, k);
-      }
-    }
     for (std::int64_t k = first[2]; k <= last[2]; ++k) {
       for (std::int64_t j = first[1]; j <= last[1]; ++j) {
         if (!is_own(1, j) || !is_own(2, k)) {
+          nodes_.clear_row(j, k);
           fill_row(j, k);
+          nodes_.summarise_row(j, k);
         }
       }
     }
@@ -266,12 +267,6 @@ class BeyondFiller {
   void set_node(const Index3& node) {
     const Index3 cell{cell_of(0, node[0]), cell_of(1, node[1]), cell_of(2, node[2])};
     nodes_.set(node, field_.fraction(cell) >= 0.5);
-  }
-  void set_ends(std::int64_t j, std::int64_t k) {
-    if (nodes_.first()[0] == 0) {
-      set_end(0, j, k);
-    }
-    set_end(nodes_.last()[0], j, k);
   }
   void set_end(std::int64_t i, std::int64_t j, std::int64_t k) {
     const std::int64_t cell = cell_of(0, i);
@@ -311,8 +306,8 @@ class BeyondFiller {
 
 }  // namespace
 
-NodeBits classify(const BlockField& field, double overshoot_bound, double weight, Phases& phases,
-                  Report& report) {
+ClassifiedNodes classify(const BlockField& field, double overshoot_bound, double weight,
+                         Phases& phases, Report& report) {
   Index3 first;
   Index3 last;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -321,7 +316,10 @@ NodeBits classify(const BlockField& field, double overshoot_bound, double weight
     first[axis] = at_low_side ? 0 : 1;
     last[axis] = field.block.dims[axis] + 1;
   }
-  NodeBits nodes(first, last);
+  ClassifiedNodes result{NodeBits(first, last), {}};
+  NodeBits& nodes = result.nodes;
+  result.row_ends.resize(static_cast<std::size_t>(field.block.dims[1] * field.block.dims[2]));
+  BeyondFiller beyond(field, nodes);
   const Index3& dims = field.view.dims;
   const std::int64_t rows = dims[1] * dims[2];
   const std::int64_t grain = std::max<std::int64_t>(1, (1 << 16) / dims[0]);
@@ -333,12 +331,20 @@ NodeBits classify(const BlockField& field, double overshoot_bound, double weight
       Statistics& statistics = portions[static_cast<std::size_t>(begin / grain)];
       for (std::int64_t row = begin; row < end; ++row) {
         const Index3 start{0, row % dims[1], row / dims[1]};
-        const auto in_block = [&](std::size_t axis) {
-          const std::int64_t index = start[axis] - field.block.ghost_low[axis];
-          return index >= 0 && index < field.block.dims[axis];
-        };
-        classify_row<T>(field, classifier, start, in_block(1) && in_block(2) ? &nodes : nullptr,
-                        statistics);
+        const std::int64_t j = start[1] - field.block.ghost_low[1];
+        const std::int64_t k = start[2] - field.block.ghost_low[2];
+        const bool in_block =
+            j >= 0 && j < field.block.dims[1] && k >= 0 && k < field.block.dims[2];
+        classify_row<T>(field, classifier, start, in_block ? &nodes : nullptr, statistics);
+        if (in_block) {
+          beyond.set_ends(j + 1, k + 1);
+          nodes.summarise_row(j + 1, k + 1);
+          result.row_ends[static_cast<std::size_t>(k * field.block.dims[1] + j)] = interfacial_ends(
+              static_cast<const T*>(field.view.data) +
+                  field.block.ghost_low[0] * field.view.strides[0] +
+                  start[1] * field.view.strides[1] + start[2] * field.view.strides[2],
+              field.block.dims[0], field);
+        }
       }
     });
   });
@@ -349,13 +355,13 @@ NodeBits classify(const BlockField& field, double overshoot_bound, double weight
   if (all.first_bad >= 0) {
     throw_bad_cell(field, all.first_bad, overshoot_bound);
   }
-  BeyondFiller(field, nodes).fill();
+  beyond.fill();
   report.cells = field.block.dims[0] * field.block.dims[1] * field.block.dims[2];
   report.interfacial_cells = all.interfacial;
   report.clamped_cells = all.clamped;
   report.largest_overshoot = all.overshoot;
   report.fraction_volume = all.sum * field.grid.cell_volume();
-  return nodes;
+  return result;
 }
 
 }  // namespace difmesh::detail

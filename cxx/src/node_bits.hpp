@@ -6,12 +6,15 @@
 // domain that is not periodic. Index dims + 1 always exists: the node beyond or on the domain face,
 // or the first cell after the block, or the periodic image of cell 0.
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <vector>
 
 #include "difmesh/grid.hpp"
+#include "difmesh/mesh.hpp"
+#include "memory_hints.hpp"
 
 namespace difmesh::detail {
 
@@ -36,10 +39,13 @@ namespace difmesh::detail {
 class NodeBits {
  public:
   NodeBits() = default;
+  /// The bits hold anything: each row is to be cleared or written.
   /// \param first lowest existing local index on each axis, 0 or 1; \param last the highest
   NodeBits(const Index3& first, const Index3& last)
       : first_(first), last_(last), words_((last[0] + 64) / 64) {
-    bits_.assign(static_cast<std::size_t>(words_ * rows()), 0);
+    bits_.resize(static_cast<std::size_t>(words_ * rows()));
+    kinds_.assign(static_cast<std::size_t>(rows()), Kind::mixed);
+    hint_large_pages(bits_);
   }
 
   [[nodiscard]] const Index3& first() const { return first_; }
@@ -55,6 +61,15 @@ class NodeBits {
   [[nodiscard]] const std::uint64_t* row(std::int64_t j, std::int64_t k) const {
     return bits_.data() + row_index(j, k) * words_;
   }
+  void clear_row(std::int64_t j, std::int64_t k) { std::fill_n(row(j, k), words_, 0); }
+  [[nodiscard]] std::int64_t count_row(std::int64_t j, std::int64_t k) const {
+    const std::uint64_t* const words = row(j, k);
+    std::int64_t count = 0;
+    for (std::int64_t w = 0; w < words_; ++w) {
+      count += words[w] != 0 ? count_bits(words[w]) : 0;
+    }
+    return count;
+  }
   [[nodiscard]] bool test(const Index3& node) const {
     return (row(node[1], node[2])[node[0] / 64] >> (node[0] % 64) & 1) != 0;
   }
@@ -62,6 +77,30 @@ class NodeBits {
     const std::uint64_t bit = std::uint64_t{1} << (node[0] % 64);
     std::uint64_t& word = row(node[1], node[2])[node[0] / 64];
     word = value ? word | bit : word & ~bit;
+    kinds_[static_cast<std::size_t>(row_index(node[1], node[2]))] = Kind::mixed;
+  }
+
+  /// Looks whether all nodes of a row are alike, which passes over the rows may ask from then on.
+  /// Thread safety: for different rows.
+  void summarise_row(std::int64_t j, std::int64_t k) {
+    const std::uint64_t* const words = row(j, k);
+    std::uint64_t none = 0;
+    std::uint64_t all = 0;
+    for (std::int64_t w = 1; w + 1 < words_; ++w) {
+      none |= words[w];
+      all |= ~words[w];
+    }
+    for (const std::int64_t w : {std::int64_t{0}, words_ - 1}) {
+      none |= words[w];
+      all |= words[w] ^ range(w, first_[0], last_[0]);
+    }
+    kinds_[static_cast<std::size_t>(row_index(j, k))] =
+        none == 0 ? Kind::outside : (all == 0 ? Kind::inside : Kind::mixed);
+  }
+  /// True if two rows are known to hold the same nodes, all alike.
+  [[nodiscard]] bool are_alike(std::int64_t row, std::int64_t other) const {
+    const Kind kind = kinds_[static_cast<std::size_t>(row)];
+    return kind != Kind::mixed && kind == kinds_[static_cast<std::size_t>(other)];
   }
   /// Bits of word w whose local index is in [from, to].
   [[nodiscard]] static std::uint64_t range(std::int64_t w, std::int64_t from, std::int64_t to) {
@@ -75,11 +114,28 @@ class NodeBits {
   }
 
  private:
+  enum class Kind : std::uint8_t { outside, inside, mixed };
+
   Index3 first_{0, 0, 0};
   Index3 last_{-1, -1, -1};
   std::int64_t words_ = 0;
-  std::vector<std::uint64_t> bits_;
+  Array<std::uint64_t> bits_;
+  std::vector<Kind> kinds_;  // by row
 };
+
+/// Rows that a thread takes at once: few enough for many threads, and enough to be worth it where most rows are
+/// bare.
+[[nodiscard]] inline std::int64_t rows_per_portion(const NodeBits& nodes) {
+  return std::clamp<std::int64_t>(nodes.rows() / 512, 16, 4096);
+}
+
+/// True if no edge that starts in a row is crossed, as far as that is known without a look at its bits.
+[[nodiscard]] inline bool is_bare(const NodeBits& nodes, std::int64_t j, std::int64_t k) {
+  const std::int64_t row = nodes.row_index(j, k);
+  return nodes.are_alike(row, row) &&
+         (j == nodes.last()[1] || nodes.are_alike(row, nodes.row_index(j + 1, k))) &&
+         (k == nodes.last()[2] || nodes.are_alike(row, nodes.row_index(j, k + 1)));
+}
 
 /// Crossed dual edges that start at the nodes of one word, by axis.
 struct EdgeWord {
@@ -108,11 +164,16 @@ class EdgeRow {
   [[nodiscard]] EdgeWord word(std::int64_t w) const {
     const std::uint64_t bits = here_[w];
     const std::uint64_t carry = w + 1 < nodes_->words() ? here_[w + 1] << 63 : 0;
+    const std::uint64_t x = bits ^ (bits >> 1 | carry);
+    const std::uint64_t y = bits ^ next_j_[w];
+    const std::uint64_t z = bits ^ next_k_[w];
+    if ((x | y | z) == 0) {
+      return {};
+    }
     const std::int64_t first = nodes_->first()[0];
     const std::int64_t last = nodes_->last()[0];
     const std::uint64_t valid = NodeBits::range(w, first, last);
-    return {(bits ^ (bits >> 1 | carry)) & valid & NodeBits::range(w, first, last - 1),
-            (bits ^ next_j_[w]) & valid, (bits ^ next_k_[w]) & valid};
+    return {x & NodeBits::range(w, first, last - 1), y & valid, z & valid};
   }
 
  private:

@@ -28,7 +28,7 @@ class NormalStencil {
   // Fractions of 3x3x3 cells, [z][y][x]. Missing layers are continued linearly, which makes every
   // centred difference across them one-sided; `present` is 0 for them, for sums.
   struct Neighbourhood {
-    double c[3][3][3];
+    double c[27];
     double present[3][3];  // [axis][offset]
     bool is_cut_short;     // a layer is missing
   };
@@ -36,15 +36,21 @@ class NormalStencil {
   void gather(const Index3& cell, Neighbourhood& hood) const;
   void gather_at_side(const Index3& cell, Neighbourhood& hood) const;
   [[nodiscard]] static Vec3 fit(const Neighbourhood& hood, const Vec3& m);
-  [[nodiscard]] static Vec3 youngs(const Neighbourhood& hood);
-  [[nodiscard]] static UnitNormal mixed(const Neighbourhood& hood, const Vec3& gradient);
+  [[nodiscard]] double fraction(const Index3& resolved) const;
   [[nodiscard]] bool is_inside(const Index3& cell, std::size_t axis) const;
   [[nodiscard]] bool add_heights(const Index3& cell, std::size_t axis, double sense,
                                  Vec3& sum) const;
-  [[nodiscard]] bool column_at_side(const Index3& foot, std::size_t axis, double sense,
+  // Where the nine columns along one axis lie, resolved: from the material's end on, and across.
+  struct SideColumns {
+    std::array<std::int64_t, 9> along;
+    int count = 0;
+    std::array<std::int64_t, 3> foot[2];
+  };
+  [[nodiscard]] SideColumns side_columns(const Index3& cell, std::size_t axis, double sense) const;
+  [[nodiscard]] bool column_at_side(const SideColumns& columns, std::size_t axis, int u, int v,
                                     double& height) const;
-  // Fractions from the material's end, zeros behind the last. One more than nine, for pairs.
-  static constexpr int kColumn = 10;
+  // Fractions from the material's end, zeros behind the last.
+  static constexpr int kColumn = 9;
   using Column = std::array<double, kColumn>;
   [[nodiscard]] bool is_column(const Column& column, int count, double& height) const;
 

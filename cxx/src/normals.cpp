@@ -4,12 +4,9 @@
 #include <cmath>
 
 #include "fitted_normals.hpp"
+#include "normal_math.hpp"
 #include "normal_stencil.hpp"
 #include "plane_fit.hpp"
-
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
 
 namespace difmesh {
 namespace detail {
@@ -17,12 +14,14 @@ namespace {
 
 // Cells on each side of the centre in a column of heights.
 constexpr int kReach = 4;
-// Below this, in fractions per cell, a gradient is rounding; above 1 - this, a share is a tie. Ties
-// are settled by all that tie, so that no axis is preferred.
-constexpr double kTie = 1e-12;
+using baseline::kTie;
 
 double norm1(const Vec3& v) {
   return std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]);
+}
+
+Vec3 to_vec3(const baseline::Triple<double>& triple) {
+  return {triple.v[0], triple.v[1], triple.v[2]};
 }
 
 void scale(Vec3& v, double factor) {
@@ -48,21 +47,22 @@ UnitNormal NormalStencil<T>::operator()(const Index3& cell) const {
   }
   Neighbourhood hood;
   gather(cell, hood);
-  Vec3 gradient = youngs(hood);
+  baseline::Triple<double> gradient = baseline::youngs(hood.c);
   const double size = norm1(gradient);
   if (size < kTie) {
     return {};
   }
-  scale(gradient, 1.0 / size);
-  UnitNormal normal{gradient, NormalSource::youngs};
+  gradient = baseline::scaled(gradient, 1.0 / size);
   if (normals_ == Normals::youngs) {
-    return normal;
+    return {to_vec3(gradient), NormalSource::youngs};
   }
-  normal = mixed(hood, gradient);
+  const auto mixed = baseline::mixed_normal(hood.c, hood.present, gradient);
+  UnitNormal normal{to_vec3(mixed.m),
+                    mixed.is_youngs ? NormalSource::youngs : NormalSource::centred_columns};
   if (normals_ == Normals::myc) {
     return normal;
   }
-  if (hood.is_cut_short && hood.c[1][1][1] > 0.0 && hood.c[1][1][1] < 1.0) {
+  if (hood.is_cut_short && hood.c[13] > 0.0 && hood.c[13] < 1.0) {
     normal = {fit(hood, normal.m), NormalSource::least_squares};
   }
   const Vec3 size_of{std::abs(normal.m[0]), std::abs(normal.m[1]), std::abs(normal.m[2])};
@@ -79,6 +79,15 @@ UnitNormal NormalStencil<T>::operator()(const Index3& cell) const {
     normal.m = sum;
   }
   return normal;
+}
+
+// As BlockField::fraction().
+template <class T>
+double NormalStencil<T>::fraction(const Index3& resolved) const {
+  if (is_cell(resolved[0]) && is_cell(resolved[1]) && is_cell(resolved[2])) {
+    return fraction_of(data_[field_.element(resolved)]);
+  }
+  return field_.fraction(resolved);
 }
 
 // True if all nine columns are in memory.
@@ -106,9 +115,10 @@ void NormalStencil<T>::gather(const Index3& cell, Neighbourhood& hood) const {
   for (int k = 0; k < 3; ++k) {
     for (int j = 0; j < 3; ++j) {
       const T* row = centre + (k - 1) * step[2] + (j - 1) * step[1];
-      hood.c[k][j][0] = fraction_of(row[-step[0]]);
-      hood.c[k][j][1] = fraction_of(row[0]);
-      hood.c[k][j][2] = fraction_of(row[step[0]]);
+      double* c = hood.c + 9 * k + 3 * j;
+      c[0] = fraction_of(row[-step[0]]);
+      c[1] = fraction_of(row[0]);
+      c[2] = fraction_of(row[step[0]]);
     }
   }
   for (auto& axis : hood.present) {
@@ -130,11 +140,11 @@ void NormalStencil<T>::gather_at_side(const Index3& cell, Neighbourhood& hood) c
       hood.is_cut_short = hood.is_cut_short || index == kMissing;
     }
   }
-  double* c = &hood.c[0][0][0];
+  double* c = hood.c;
   for (int k = 0; k < 3; ++k) {
     for (int j = 0; j < 3; ++j) {
       for (int i = 0; i < 3; ++i) {
-        c[9 * k + 3 * j + i] = field_.fraction({resolved[0][i], resolved[1][j], resolved[2][k]});
+        c[9 * k + 3 * j + i] = fraction({resolved[0][i], resolved[1][j], resolved[2][k]});
       }
     }
   }
@@ -165,86 +175,13 @@ Vec3 NormalStencil<T>::fit(const Neighbourhood& hood, const Vec3& m) {
   for (int k = 0; k < 3; ++k) {
     for (int j = 0; j < 3; ++j) {
       for (int i = 0; i < 3; ++i) {
-        neighbours.fraction[k][j][i] = hood.c[k][j][i];
+        neighbours.fraction[k][j][i] = hood.c[9 * k + 3 * j + i];
         neighbours.is_there[k][j][i] =
             hood.present[0][i] != 0.0 && hood.present[1][j] != 0.0 && hood.present[2][k] != 0.0;
       }
     }
   }
   return fit_to_neighbours(neighbours, m);
-}
-
-// Minus the gradient of the fractions, per cell: differences of layers weighted (1,2,1)x(1,2,1)/16.
-template <class T>
-Vec3 NormalStencil<T>::youngs(const Neighbourhood& hood) {
-  constexpr double weight[3] = {1.0, 2.0, 1.0};
-  Vec3 sum{0.0, 0.0, 0.0};
-  double along_x[3][3];
-  for (int k = 0; k < 3; ++k) {
-    for (int j = 0; j < 3; ++j) {
-      const double* row = hood.c[k][j];
-      sum[0] += weight[j] * weight[k] * (row[0] - row[2]);
-      along_x[k][j] = row[0] + 2.0 * row[1] + row[2];
-    }
-  }
-  for (int t = 0; t < 3; ++t) {
-    sum[1] += weight[t] * (along_x[t][0] - along_x[t][2]);
-    sum[2] += weight[t] * (along_x[0][t] - along_x[2][t]);
-  }
-  scale(sum, 1.0 / 32.0);
-  return sum;
-}
-
-// MYC of Aulisa et al. 2007. `gradient` is Youngs' normal, scaled to |.|₁ = 1.
-template <class T>
-UnitNormal NormalStencil<T>::mixed(const Neighbourhood& hood, const Vec3& gradient) {
-  const double* c = &hood.c[0][0][0];
-  constexpr int kSteps[3] = {1, 3, 9};
-  Vec3 candidates[3];
-  double own[3];
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const int step = kSteps[axis];
-    const double low = hood.present[axis][0];
-    const double high = hood.present[axis][2];
-    Vec3& m = candidates[axis];
-    for (std::size_t t = 1; t < 3; ++t) {
-      const std::size_t other = (axis + t) % 3;
-      const int third = kSteps[(axis + 3 - t) % 3];
-      const auto height = [&](int offset) {
-        const double* foot = c + kSteps[other] * offset + third;
-        return low * foot[0] + foot[step] + high * foot[2 * step];
-      };
-      m[other] = (height(0) - height(2)) / 2.0;
-    }
-    double lower_minus_upper = 0.0;
-    for (int line = 0; line < 9; ++line) {
-      const double* start =
-          c + (line % 3) * kSteps[(axis + 1) % 3] + (line / 3) * kSteps[(axis + 2) % 3];
-      lower_minus_upper += start[0] - start[2 * step];
-    }
-    m[axis] = lower_minus_upper > kTie ? 1.0 : (lower_minus_upper < -kTie ? -1.0 : 0.0);
-    const double size = norm1(m);
-    scale(m, size > kTie ? 1.0 / size : 0.0);
-    own[axis] = std::abs(m[axis]);
-  }
-  const double best = std::max({own[0], own[1], own[2]});
-  const double largest =
-      std::max({std::abs(gradient[0]), std::abs(gradient[1]), std::abs(gradient[2])});
-  if (best > largest || best == 0.0) {
-    return {gradient, NormalSource::youngs};
-  }
-  Vec3 sum{0.0, 0.0, 0.0};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (std::size_t t = 0; own[axis] >= best - kTie && t < 3; ++t) {
-      sum[t] += candidates[axis][t];
-    }
-  }
-  const double size = norm1(sum);
-  if (size < kTie) {
-    return {gradient, NormalSource::youngs};
-  }
-  scale(sum, 1.0 / size);
-  return {sum, NormalSource::centred_columns};
 }
 
 // Adds the normal from the heights along one axis, scaled to |.|₁ = 1, if all nine columns agree.
@@ -254,7 +191,7 @@ bool NormalStencil<T>::add_heights(const Index3& cell, std::size_t axis, double 
                                    Vec3& sum) const {
   const std::size_t other = (axis + 1) % 3;
   const std::size_t third = (axis + 2) % 3;
-  double height[3][3];
+  double height[3][3] = {};
   bool there[2][3] = {{true, true, true}, {true, true, true}};
   if (is_inside(cell, axis)) {
     const Index3& step = field_.view.strides;
@@ -273,16 +210,14 @@ bool NormalStencil<T>::add_heights(const Index3& cell, std::size_t axis, double 
       }
     }
   } else {
+    const SideColumns columns = side_columns(cell, axis, sense);
     for (int t = 0; t < 3; ++t) {
-      there[0][t] = field_.axes[other].resolve(cell[other] + t - 1) != kMissing;
-      there[1][t] = field_.axes[third].resolve(cell[third] + t - 1) != kMissing;
+      there[0][t] = columns.foot[0][static_cast<std::size_t>(t)] != kMissing;
+      there[1][t] = columns.foot[1][static_cast<std::size_t>(t)] != kMissing;
     }
     for (const int u : {1, 0, 2}) {
       for (const int v : {1, 0, 2}) {
-        Index3 foot = cell;
-        foot[other] += u - 1;
-        foot[third] += v - 1;
-        if (there[0][u] && there[1][v] && !column_at_side(foot, axis, sense, height[u][v])) {
+        if (there[0][u] && there[1][v] && !column_at_side(columns, axis, u, v, height[u][v])) {
           return false;
         }
       }
@@ -309,56 +244,54 @@ bool NormalStencil<T>::add_heights(const Index3& cell, std::size_t axis, double 
 // interfacial ones, then empty ones, at least one full and one empty.
 template <class T>
 bool NormalStencil<T>::is_column(const Column& column, int count, double& height) const {
-  unsigned full = 0;
-  unsigned not_empty = 0;
-  double even = 0.0;
-  double odd = 0.0;
-#ifdef __SSE2__
-  __m128d sums = _mm_setzero_pd();
-  for (int n = 0; n < kColumn; n += 2) {
-    const __m128d pair = _mm_loadu_pd(column.data() + n);
-    full |= static_cast<unsigned>(_mm_movemask_pd(_mm_cmpge_pd(pair, _mm_set1_pd(full_)))) << n;
-    not_empty |= static_cast<unsigned>(_mm_movemask_pd(_mm_cmpgt_pd(pair, _mm_set1_pd(empty_))))
-                 << n;
-    sums = _mm_add_pd(sums, pair);
+  // From both ends to the middle: the same from either side.
+  height = ((column[0] + column[8]) + (column[2] + column[6])) +
+           ((column[1] + column[7]) + (column[3] + column[5])) + column[4];
+  bool consistent = column[0] >= full_ && column[static_cast<std::size_t>(count - 1)] <= empty_;
+  for (std::size_t n = 1; n < static_cast<std::size_t>(count); ++n) {
+    const bool full_again = column[n] >= full_ && !(column[n - 1] >= full_);
+    const bool filled_again = column[n] > empty_ && !(column[n - 1] > empty_);
+    consistent = consistent && !full_again && !filled_again;
   }
-  even = _mm_cvtsd_f64(sums);
-  odd = _mm_cvtsd_f64(_mm_unpackhi_pd(sums, sums));
-#else
-  for (int n = 0; n < kColumn; n += 2) {
-    for (int m = n; m < n + 2; ++m) {
-      const double fraction = column[static_cast<std::size_t>(m)];
-      full |= static_cast<unsigned>(fraction >= full_) << m;
-      not_empty |= static_cast<unsigned>(fraction > empty_) << m;
-      (m == n ? even : odd) += fraction;
-    }
-  }
-#endif
-  height = even + odd;
-  // Both must run from the first cell on without a gap, and end before the last.
-  return (full & 1U) != 0 && (full & (full + 1U)) == 0 && (not_empty & (not_empty + 1U)) == 0 &&
-         not_empty >> (count - 1) == 0;
+  return consistent;
 }
 
 template <class T>
-bool NormalStencil<T>::column_at_side(const Index3& foot, std::size_t axis, double sense,
-                                      double& height) const {
-  Index3 resolved;
-  for (std::size_t t = 0; t < 3; ++t) {
-    resolved[t] = field_.axes[t].resolve(foot[t]);
-  }
-  Column column{};
-  int count = 0;
-  for (std::int64_t offset = -kReach; offset <= kReach; ++offset) {
-    resolved[axis] = field_.axes[axis].resolve(foot[axis] + offset);
-    if (resolved[axis] != kMissing) {
-      column[static_cast<std::size_t>(count++)] = field_.fraction(resolved);
+typename NormalStencil<T>::SideColumns NormalStencil<T>::side_columns(const Index3& cell,
+                                                                      std::size_t axis,
+                                                                      double sense) const {
+  SideColumns columns;
+  for (std::int64_t n = -kReach; n <= kReach; ++n) {
+    const std::int64_t index = field_.axes[axis].resolve(cell[axis] + n);
+    if (index != kMissing) {
+      columns.along[static_cast<std::size_t>(columns.count++)] = index;
     }
   }
   if (sense < 0.0) {
-    std::reverse(column.begin(), column.begin() + count);
+    std::reverse(columns.along.begin(), columns.along.begin() + columns.count);
   }
-  return is_column(column, count, height);
+  for (std::size_t t = 0; t < 2; ++t) {
+    const std::size_t across = (axis + 1 + t) % 3;
+    for (std::int64_t n = 0; n < 3; ++n) {
+      columns.foot[t][static_cast<std::size_t>(n)] =
+          field_.axes[across].resolve(cell[across] + n - 1);
+    }
+  }
+  return columns;
+}
+
+template <class T>
+bool NormalStencil<T>::column_at_side(const SideColumns& columns, std::size_t axis, int u, int v,
+                                      double& height) const {
+  Index3 resolved;
+  resolved[(axis + 1) % 3] = columns.foot[0][static_cast<std::size_t>(u)];
+  resolved[(axis + 2) % 3] = columns.foot[1][static_cast<std::size_t>(v)];
+  Column column{};
+  for (std::size_t n = 0; n < static_cast<std::size_t>(columns.count); ++n) {
+    resolved[axis] = columns.along[n];
+    column[n] = fraction(resolved);
+  }
+  return is_column(column, columns.count, height);
 }
 
 template class NormalStencil<float>;

@@ -21,14 +21,11 @@ using detail::DualGrid;
 using detail::Phases;
 using detail::Stopwatch;
 
-Vec3 middle_of(const BlockField& field) {
-  Vec3 middle;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    middle[axis] = field.grid.origin[axis] +
-                   field.grid.spacing[axis] * (static_cast<double>(field.block.offset[axis]) +
-                                               0.5 * static_cast<double>(field.block.dims[axis]));
-  }
-  return middle;
+// Half-way up the block.
+double middle_level(const BlockField& field) {
+  return field.grid.origin[2] +
+         field.grid.spacing[2] * (static_cast<double>(field.block.offset[2]) +
+                                  0.5 * static_cast<double>(field.block.dims[2]));
 }
 
 Reconstruction run(const BlockField& field, const Options& options) {
@@ -40,12 +37,16 @@ Reconstruction run(const BlockField& field, const Options& options) {
   detail::Workers workers(options.threads);
   Phases phases(workers, options.progress);
 
-  DualGrid grid(field, detail::classify(field, options.overshoot_bound, 0.1, phases, report));
+  detail::ClassifiedNodes classified =
+      detail::classify(field, options.overshoot_bound, 0.1, phases, report);
+  DualGrid grid(field, std::move(classified.nodes));
   report.seconds.classify = watch.lap();
 
   const bool with_planes = options.placement == Placement::plic;
   if (with_planes || options.vertex_normals) {
-    grid.set_planes(detail::make_planes(field, grid.nodes(), options, phases, report), with_planes);
+    grid.set_planes(
+        detail::make_planes(field, grid.nodes(), classified.row_ends, options, phases, report),
+        with_planes);
   }
   report.seconds.normals = watch.lap();
 
@@ -62,7 +63,7 @@ Reconstruction run(const BlockField& field, const Options& options) {
 
   detail::connect(grid, vertex_start, triangle_start, phases, mesh);
   if (report.closed) {
-    report.enclosed_volume = detail::enclosed_volume(mesh, middle_of(field), phases);
+    report.enclosed_volume = detail::enclosed_volume(mesh, middle_level(field), phases);
   }
   report.seconds.triangles = watch.lap();
   report.seconds.total = whole.lap();

@@ -9,8 +9,6 @@
 namespace difmesh::detail {
 namespace {
 
-constexpr std::int64_t kRowsPerPortion = 16;
-
 // Four rows of nodes, numbered by (j, k) bits, between which one row of dual cells lies.
 class CellRow {
  public:
@@ -22,36 +20,51 @@ class CellRow {
     }
   }
 
-  [[nodiscard]] std::int64_t words() const { return nodes_.words(); }
-
-  /// Cells of a word that the surface passes.
-  [[nodiscard]] std::uint64_t active(std::int64_t w) const {
-    std::uint64_t all = ~std::uint64_t{0};
-    std::uint64_t any = 0;
-    for (const std::uint64_t* row : rows_) {
-      const std::uint64_t upper = next(row, w);
-      all &= row[w] & upper;
-      any |= row[w] | upper;
+  /// Calls visit(w, mask) for the words with cells that the surface passes: bits of the mask.
+  template <class Visit>
+  void for_each_active_word(const Visit& visit) const {
+    const std::int64_t words = nodes_.words();
+    std::uint64_t any = rows_[0][0] | rows_[1][0] | rows_[2][0] | rows_[3][0];
+    std::uint64_t all = rows_[0][0] & rows_[1][0] & rows_[2][0] & rows_[3][0];
+    for (std::int64_t w = 0; w < words; ++w) {
+      std::uint64_t next_any = 0;
+      std::uint64_t next_all = 0;
+      if (w + 1 < words) {
+        next_any = rows_[0][w + 1] | rows_[1][w + 1] | rows_[2][w + 1] | rows_[3][w + 1];
+        next_all = rows_[0][w + 1] & rows_[1][w + 1] & rows_[2][w + 1] & rows_[3][w + 1];
+      }
+      const std::uint64_t mixed =
+          (any | any >> 1 | next_any << 63) & ~(all & (all >> 1 | next_all << 63));
+      any = next_any;
+      all = next_all;
+      if (mixed != 0) {
+        const std::uint64_t cells =
+            mixed & NodeBits::range(w, nodes_.first()[0], nodes_.last()[0] - 1);
+        if (cells != 0) {
+          visit(w, cells);
+        }
+      }
     }
-    const std::uint64_t mixed = any & ~all;
-    return mixed == 0 ? 0 : mixed & NodeBits::range(w, nodes_.first()[0], nodes_.last()[0] - 1);
   }
 
   /// The case of the cell at a bit of a word.
   [[nodiscard]] std::uint8_t corners(std::int64_t w, int bit) const {
     unsigned corners = 0;
     for (unsigned n = 0; n < 4; ++n) {
-      const auto low = static_cast<unsigned>(rows_[n][w] >> bit & 1);
-      const auto high = static_cast<unsigned>(next(rows_[n], w) >> bit & 1);
-      corners |= (low | high << 1) << (2 * n);
+      const std::uint64_t pair =
+          bit < 63 ? rows_[n][w] >> bit : rows_[n][w] >> 63 | (next(rows_[n], w) >> 63) << 1;
+      corners |= static_cast<unsigned>(pair & 3) << (2 * n);
     }
     return static_cast<std::uint8_t>(corners);
   }
 
   /// Triangles of a cell, its ambiguous faces settled by the mean of their fractions.
   [[nodiscard]] CubeTriangles triangles(std::int64_t i, std::uint8_t corners) const {
-    std::uint8_t joined = 0;
     const unsigned ambiguous = ambiguous_faces(corners);
+    if (ambiguous == 0) {
+      return cube_triangles(corners, 0);
+    }
+    std::uint8_t joined = 0;
     for (unsigned left = ambiguous; left != 0; left &= left - 1) {
       const auto face = static_cast<unsigned>(std::countr_zero(left));
       if (joins(i, face)) {
@@ -84,84 +97,129 @@ class CellRow {
   std::array<const std::uint64_t*, 4> rows_;
 };
 
-// Numbers of the vertices around the cells of one row, walking along it.
-class VertexNumbers {
+// The crossed edges that start in one row of nodes, and the numbers of their vertices.
+struct NumberedRow {
+  std::vector<EdgeWord> edges;       // by word; one more, without edges
+  std::vector<std::uint32_t> start;  // vertices before each word
+  std::int64_t row = -1;
+
+  explicit NumberedRow(const NodeBits& nodes)
+      : edges(static_cast<std::size_t>(nodes.words()) + 1), start(edges.size()) {}
+
+  void fill(const NodeBits& nodes, std::int64_t j, std::int64_t k,
+            const std::vector<std::int64_t>& vertex_start) {
+    row = nodes.row_index(j, k);
+    const EdgeRow words(nodes, j, k);
+    auto number = static_cast<std::uint32_t>(vertex_start[static_cast<std::size_t>(row)]);
+    for (std::size_t w = 0; w + 1 < edges.size(); ++w) {
+      edges[w] = words.word(static_cast<std::int64_t>(w));
+      start[w] = number;
+      number += edges[w].any() != 0 ? static_cast<std::uint32_t>(edges[w].count()) : 0;
+    }
+  }
+};
+
+// The four rows of nodes around a row of cells, numbered by (j, k) bits. Rows in the order of memory share two of
+// them with the row before.
+class RowsAround {
  public:
-  VertexNumbers(const DualGrid& grid, std::int64_t j, std::int64_t k,
-                const std::vector<std::int64_t>& vertex_start)
-      : edges_{EdgeRow(grid.nodes(), j, k), EdgeRow(grid.nodes(), j + 1, k),
-               EdgeRow(grid.nodes(), j, k + 1), EdgeRow(grid.nodes(), j + 1, k + 1)} {
-    for (std::size_t n = 0; n < 4; ++n) {
-      const std::int64_t row = grid.nodes().row_index(j + static_cast<std::int64_t>(n & 1),
-                                                      k + static_cast<std::int64_t>(n >> 1));
-      next_[n] = vertex_start[static_cast<std::size_t>(row)];
-    }
-  }
+  RowsAround(const NodeBits& nodes, const std::vector<std::int64_t>& vertex_start)
+      : nodes_(nodes),
+        vertex_start_(vertex_start),
+        rows_{new_row(), new_row(), new_row(), new_row()} {}
 
-  /// Must be called for words 0, 1, 2 … in turn.
-  void enter_word(std::int64_t w) {
-    for (std::size_t n = 0; n < 4; ++n) {
-      skip_to(n, 64);
-      word_[n] = edges_[n].word(w);
-    }
-    counted_ = 0;
-    entered_ = w;
-  }
-
-  /// For the cell at a bit: numbers by edge of the cell; meaningless for edges that are not crossed.
-  /// Must be called for rising bits.
-  void around(int bit, std::array<std::uint32_t, kCubeEdges>& number) {
-    for (unsigned n = 0; n < 4; ++n) {
-      skip_to(n, bit);
-      visit_node(word_[n], bit, n, 0, next_[n], number);
-      std::int64_t beyond = next_[n];
-      if (bit < 63) {
-        visit_node(word_[n], bit + 1, n, 1, beyond, number);
-      } else {
-        visit_node(edges_[n].word(entered_ + 1), 0, n, 1, beyond, number);
+  void move_to(std::int64_t j, std::int64_t k) {
+    for (std::size_t n = 0; n < 4; n += 2) {
+      if (rows_[n + 1].row == nodes_.row_index(j, k + static_cast<std::int64_t>(n / 2))) {
+        std::swap(rows_[n], rows_[n + 1]);
       }
     }
-    counted_ = bit + 1;
+    for (std::size_t n = 0; n < 4; ++n) {
+      const std::int64_t to_j = j + static_cast<std::int64_t>(n & 1);
+      const std::int64_t to_k = k + static_cast<std::int64_t>(n >> 1);
+      if (rows_[n].row != nodes_.row_index(to_j, to_k)) {
+        rows_[n].fill(nodes_, to_j, to_k, vertex_start_);
+      }
+    }
+  }
+  [[nodiscard]] const NumberedRow& operator[](std::size_t n) const { return rows_[n]; }
+
+ private:
+  [[nodiscard]] NumberedRow new_row() const { return NumberedRow(nodes_); }
+
+  const NodeBits& nodes_;
+  const std::vector<std::int64_t>& vertex_start_;
+  std::array<NumberedRow, 4> rows_;
+};
+
+// Numbers of the vertices around the cells of one word, walking along it.
+class VertexNumbers {
+ public:
+  VertexNumbers(const RowsAround& rows, std::size_t w) {
+    for (std::size_t n = 0; n < 4; ++n) {
+      word_[n] = rows[n].edges[w];
+      next_word_[n] = rows[n].edges[w + 1];
+      word_start_[n] = rows[n].start[w];
+    }
+  }
+
+  /// By edge of the cell last visited; meaningless for edges that are not crossed.
+  [[nodiscard]] const std::array<std::uint32_t, kCubeEdges>& numbers() const { return number_; }
+
+  /// Visits the cell at a bit. Bits must rise.
+  void visit(int bit) {
+    if (bit != next_bit_) {
+      for (unsigned n = 0; n < 4; ++n) {
+        start_[n] =
+            word_start_[n] +
+            (word_[n].any() != 0 ? static_cast<std::uint32_t>(word_[n].count_below(bit)) : 0);
+        enter_node(n, 0, word_[n], bit);
+      }
+    } else {
+      // Cells come in runs: what was on the upper side of the last is on the lower one.
+      for (unsigned n = 4; n < kCubeEdges; n += 2) {
+        number_[n] = number_[n + 1];
+      }
+    }
+    for (unsigned n = 0; n < 4; ++n) {
+      number_[n] = start_[n];
+      start_[n] += edges_at(word_[n], bit);
+      if (bit < 63) {
+        enter_node(n, 1, word_[n], bit + 1);
+      } else {
+        enter_node(n, 1, next_word_[n], 0);
+      }
+    }
+    next_bit_ = bit + 1;
   }
 
  private:
-  // Counts the vertices of the nodes from the last cell on. Cells come in runs, mostly without a gap.
-  void skip_to(std::size_t n, int bit) {
-    if (bit == counted_ || word_[n].any() == 0) {
-      return;
-    }
-    const std::uint64_t before = bit == 64 ? ~std::uint64_t{0} : below(bit);
-    const std::uint64_t gap = counted_ == 64 ? 0 : before & ~below(counted_);
-    if ((word_[n].any() & gap) != 0) {
-      next_[n] += count_bits(word_[n].x & gap) + count_bits(word_[n].y & gap) +
-                  count_bits(word_[n].z & gap);
-    }
+  static std::uint32_t bit_of(std::uint64_t word, int bit) {
+    return static_cast<std::uint32_t>(word >> bit & 1);
+  }
+  static std::uint32_t edges_at(const EdgeWord& word, int bit) {
+    return bit_of(word.x, bit) + bit_of(word.y, bit) + bit_of(word.z, bit);
   }
 
-  // The edges that start at a node, x, y, z, as vertices are numbered. Bit 0 of the row n is its
-  // place in y, bit 1 in z; the cell has an edge in y only from its lower rows in y, in z from its
-  // lower ones in z.
-  static void visit_node(const EdgeWord& word, int bit, unsigned n, unsigned upper,
-                         std::int64_t& vertex, std::array<std::uint32_t, kCubeEdges>& number) {
-    if (upper == 0) {
-      number[n] = static_cast<std::uint32_t>(vertex);
-    }
-    vertex += static_cast<std::int64_t>(word.x >> bit & 1);
+  // The edges across x that start at a node whose vertices begin at start_[n]; they are numbered x, y, z. Bit 0
+  // of the row n is its place in y, bit 1 in z; the cell has an edge in y only from its lower rows in y, in z from
+  // its lower ones in z.
+  void enter_node(unsigned n, unsigned upper, const EdgeWord& word, int bit) {
+    const std::uint32_t y = start_[n] + bit_of(word.x, bit);
     if ((n & 1U) == 0) {
-      number[4U + upper + (n & 2U)] = static_cast<std::uint32_t>(vertex);
+      number_[4U + upper + (n & 2U)] = y;
     }
-    vertex += static_cast<std::int64_t>(word.y >> bit & 1);
     if ((n & 2U) == 0) {
-      number[8U + upper + 2U * (n & 1U)] = static_cast<std::uint32_t>(vertex);
+      number_[8U + upper + 2U * (n & 1U)] = y + bit_of(word.y, bit);
     }
-    vertex += static_cast<std::int64_t>(word.z >> bit & 1);
   }
 
-  std::array<EdgeRow, 4> edges_;
-  std::array<EdgeWord, 4> word_{};
-  std::array<std::int64_t, 4> next_{};  // vertices before the node at bit counted_
-  int counted_ = 0;
-  std::int64_t entered_ = 0;
+  std::array<EdgeWord, 4> word_;
+  std::array<EdgeWord, 4> next_word_;
+  std::array<std::uint32_t, 4> word_start_;  // vertices before the word
+  std::array<std::uint32_t, 4> start_{};     // vertices before the node at next_bit_
+  std::array<std::uint32_t, kCubeEdges> number_{};
+  int next_bit_ = -1;
 };
 
 bool exists(const NodeBits& nodes, std::int64_t j, std::int64_t k) {
@@ -172,10 +230,9 @@ bool exists(const NodeBits& nodes, std::int64_t j, std::int64_t k) {
 // No vertex on the four rows of nodes: no triangle either.
 bool is_bare(const NodeBits& nodes, std::int64_t j, std::int64_t k,
              const std::vector<std::int64_t>& vertex_start) {
-  for (const std::int64_t row : {nodes.row_index(j, k), nodes.row_index(j + 1, k),
-                                 nodes.row_index(j, k + 1), nodes.row_index(j + 1, k + 1)}) {
+  for (const std::int64_t row : {nodes.row_index(j, k), nodes.row_index(j, k + 1)}) {
     const auto n = static_cast<std::size_t>(row);
-    if (vertex_start[n] != vertex_start[n + 1]) {
+    if (vertex_start[n] != vertex_start[n + 2]) {
       return false;
     }
   }
@@ -190,24 +247,25 @@ std::vector<std::int64_t> count_triangles(const DualGrid& grid,
   const NodeBits& nodes = grid.nodes();
   const std::int64_t row_length = nodes.last()[1] + 1;
   std::vector<std::int64_t> start(static_cast<std::size_t>(nodes.rows()) + 1, 0);
-  phases.run(0.05, nodes.rows(), kRowsPerPortion, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t row = begin; row < end; ++row) {
-      const std::int64_t j = row % row_length;
-      const std::int64_t k = row / row_length;
-      if (!exists(nodes, j, k) || is_bare(nodes, j, k, vertex_start)) {
-        continue;
-      }
-      const CellRow cells(grid, j, k);
-      std::size_t count = 0;
-      for (std::int64_t w = 0; w < nodes.words(); ++w) {
-        for (std::uint64_t left = cells.active(w); left != 0; left &= left - 1) {
-          const int bit = std::countr_zero(left);
-          count += cells.triangles(64 * w + bit, cells.corners(w, bit)).size();
-        }
-      }
-      start[static_cast<std::size_t>(row) + 1] = static_cast<std::int64_t>(count);
-    }
-  });
+  phases.run(0.05, nodes.rows(), rows_per_portion(nodes),
+             [&](std::int64_t begin, std::int64_t end) {
+               for (std::int64_t row = begin; row < end; ++row) {
+                 const std::int64_t j = row % row_length;
+                 const std::int64_t k = row / row_length;
+                 if (!exists(nodes, j, k) || is_bare(nodes, j, k, vertex_start)) {
+                   continue;
+                 }
+                 const CellRow cells(grid, j, k);
+                 std::size_t count = 0;
+                 cells.for_each_active_word([&](std::int64_t w, std::uint64_t active) {
+                   for (std::uint64_t left = active; left != 0; left &= left - 1) {
+                     const int bit = std::countr_zero(left);
+                     count += cells.triangles(64 * w + bit, cells.corners(w, bit)).size();
+                   }
+                 });
+                 start[static_cast<std::size_t>(row) + 1] = static_cast<std::int64_t>(count);
+               }
+             });
   for (std::size_t row = 1; row < start.size(); ++row) {
     start[row] += start[row - 1];
   }
@@ -219,7 +277,9 @@ void connect(const DualGrid& grid, const std::vector<std::int64_t>& vertex_start
   const NodeBits& nodes = grid.nodes();
   const std::int64_t row_length = nodes.last()[1] + 1;
   mesh.triangles.resize(static_cast<std::size_t>(triangle_start.back()));
-  phases.run(0.1, nodes.rows(), kRowsPerPortion, [&](std::int64_t begin, std::int64_t end) {
+  hint_large_pages(mesh.triangles);
+  phases.run(0.1, nodes.rows(), rows_per_portion(nodes), [&](std::int64_t begin, std::int64_t end) {
+    RowsAround rows(nodes, vertex_start);
     for (std::int64_t row = begin; row < end; ++row) {
       auto next = static_cast<std::size_t>(triangle_start[static_cast<std::size_t>(row)]);
       if (next == static_cast<std::size_t>(triangle_start[static_cast<std::size_t>(row) + 1])) {
@@ -228,39 +288,36 @@ void connect(const DualGrid& grid, const std::vector<std::int64_t>& vertex_start
       const std::int64_t j = row % row_length;
       const std::int64_t k = row / row_length;
       const CellRow cells(grid, j, k);
-      VertexNumbers numbers(grid, j, k, vertex_start);
-      std::array<std::uint32_t, kCubeEdges> number{};
-      for (std::int64_t w = 0; w < nodes.words(); ++w) {
-        numbers.enter_word(w);
-        for (std::uint64_t left = cells.active(w); left != 0; left &= left - 1) {
+      rows.move_to(j, k);
+      cells.for_each_active_word([&](std::int64_t w, std::uint64_t active) {
+        VertexNumbers around(rows, static_cast<std::size_t>(w));
+        const std::array<std::uint32_t, kCubeEdges>& number = around.numbers();
+        for (std::uint64_t left = active; left != 0; left &= left - 1) {
           const int bit = std::countr_zero(left);
-          numbers.around(bit, number);
+          around.visit(bit);
           for (const CubeTriangle& t : cells.triangles(64 * w + bit, cells.corners(w, bit))) {
             mesh.triangles[next++] = {number[t[0]], number[t[1]], number[t[2]]};
           }
         }
-      }
+      });
     }
   });
 }
 
-double enclosed_volume(const Mesh& mesh, const Vec3& near, Phases& phases) {
+double enclosed_volume(const Mesh& mesh, double level, Phases& phases) {
   constexpr std::int64_t kPortion = 8192;
   const auto count = static_cast<std::int64_t>(mesh.triangles.size());
   std::vector<double> portions(static_cast<std::size_t>((count + kPortion - 1) / kPortion));
   phases.run(0.03, count, kPortion, [&](std::int64_t begin, std::int64_t end) {
     double sum = 0.0;
     for (std::int64_t n = begin; n < end; ++n) {
-      Vec3 p[3];
-      for (std::size_t corner = 0; corner < 3; ++corner) {
-        p[corner] = mesh.positions[mesh.triangles[static_cast<std::size_t>(n)][corner]];
-        for (std::size_t t = 0; t < 3; ++t) {
-          p[corner][t] -= near[t];
-        }
-      }
-      sum += p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) +
-             p[0][1] * (p[1][2] * p[2][0] - p[1][0] * p[2][2]) +
-             p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0]);
+      const Triangle& triangle = mesh.triangles[static_cast<std::size_t>(n)];
+      const Vec3& a = mesh.positions[triangle[0]];
+      const Vec3& b = mesh.positions[triangle[1]];
+      const Vec3& c = mesh.positions[triangle[2]];
+      // What lies below the triangle: its height times twice the area of its shadow.
+      const double shadow = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+      sum += ((a[2] - level) + (b[2] - level) + (c[2] - level)) * shadow;
     }
     portions[static_cast<std::size_t>(begin / kPortion)] = sum;
   });

@@ -19,8 +19,8 @@ namespace difmesh::detail {
 void connect(const DualGrid& grid, const std::vector<std::int64_t>& vertex_start,
              const std::vector<std::int64_t>& triangle_start, Phases& phases, Mesh& mesh);
 
-/// Volume inside a closed mesh, by the divergence theorem about a point near it. Summed in fixed
+/// Volume inside a closed mesh, by the divergence theorem from a level in z near it. Summed in fixed
 /// portions.
-[[nodiscard]] double enclosed_volume(const Mesh& mesh, const Vec3& near, Phases& phases);
+[[nodiscard]] double enclosed_volume(const Mesh& mesh, double level, Phases& phases);
 
 }  // namespace difmesh::detail

@@ -1,226 +1,15 @@
 #include "vertices.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <array>
+#include <bit>
 
-#include "placement.hpp"
-#include "window.hpp"
+#include "memory_hints.hpp"
+#include "vertex_placer.hpp"
+#include "window_queue.hpp"
 
 namespace difmesh::detail {
 namespace {
-
-constexpr std::int64_t kRowsPerPortion = 16;
-
-struct EdgeCounts {
-  std::int64_t solved = 0;
-  std::int64_t steps = 0;
-  std::int64_t most_steps = 0;
-  std::int64_t non_monotone = 0;
-  bool on_end = false;
-};
-
-// A crossed dual edge and what is known at its two nodes.
-struct DualEdge {
-  Index3 lower;
-  Index3 upper;
-  std::size_t axis = 0;
-  bool upper_inside = false;
-};
-
-// Places the vertices of one kind of options on one dual grid. Thread safety: const calls are safe.
-class VertexPlacer {
- public:
-  VertexPlacer(const DualGrid& grid, const Options& options)
-      : grid_(grid), options_(options), with_planes_(options.placement == Placement::plic) {}
-
-  // The vertex's share of the way from the lower node to the upper one.
-  double place(const DualEdge& edge, EdgeCounts& counts) const {
-    double share = 0.5;
-    if (!with_planes_) {
-      share = place_by_fractions(edge);
-    } else if (grid_.is_own(edge.lower) && grid_.is_own(edge.upper)) {
-      share = place_by_window(edge, grid_.planes().at(edge.lower), grid_.planes().at(edge.upper),
-                              counts);
-    } else {
-      share = place_at_side(edge, counts);
-    }
-    return std::clamp(share, options_.clearance, 1.0 - options_.clearance);
-  }
-
-  Vec3 position(const DualEdge& edge, double share) const {
-    Vec3 position;
-    for (std::size_t t = 0; t < 3; ++t) {
-      position[t] = grid_.coordinate(t, edge.lower[t]);
-    }
-    const double low = position[edge.axis];
-    const double high = grid_.coordinate(edge.axis, edge.upper[edge.axis]);
-    const BlockField& field = grid_.field();
-    const bool half_edge = is_half_edge(edge);
-    const auto index =
-        static_cast<double>(edge.lower[edge.axis] - 1 + field.block.offset[edge.axis]);
-    const double along = half_edge ? low + share * (high - low)
-                                   : field.grid.origin[edge.axis] +
-                                         (index + 0.5 + share) * field.grid.spacing[edge.axis];
-    // Rounding must not carry a vertex onto a node.
-    constexpr double kFar = std::numeric_limits<double>::infinity();
-    position[edge.axis] = std::clamp(along, std::nextafter(low, kFar), std::nextafter(high, -kFar));
-    return position;
-  }
-
-  Vec3 normal(const DualEdge& edge, double share) const {
-    Vec3 sum{0.0, 0.0, 0.0};
-    add_normal(edge, edge.lower, 1.0 - share, sum);
-    add_normal(edge, edge.upper, share, sum);
-    const double length = std::hypot(sum[0], sum[1], sum[2]);
-    if (!(length > 0.0)) {
-      sum = {0.0, 0.0, 0.0};
-      sum[edge.axis] = edge.upper_inside ? -1.0 : 1.0;
-      return sum;
-    }
-    return {sum[0] / length, sum[1] / length, sum[2] / length};
-  }
-
- private:
-  // Between a cell centre and a domain face.
-  [[nodiscard]] bool is_half_edge(const DualEdge& edge) const {
-    const BlockField& field = grid_.field();
-    const std::int64_t index = edge.lower[edge.axis] - 1 + field.block.offset[edge.axis];
-    const auto ends_on_face = [](Side side) { return side == Side::open || side == Side::mirror; };
-    return (index < 0 && ends_on_face(field.sides[2 * edge.axis])) ||
-           (index == field.grid.dims[edge.axis] - 1 &&
-            ends_on_face(field.sides[2 * edge.axis + 1]));
-  }
-
-  [[nodiscard]] double place_by_fractions(const DualEdge& edge) const {
-    if (options_.placement == Placement::midpoint) {
-      return 0.5;
-    }
-    const double lower = fraction_at(edge.lower);
-    const double upper = fraction_at(edge.upper);
-    const double outer = edge.upper_inside ? lower : upper;
-    const double inner = edge.upper_inside ? upper : lower;
-    const double mu = options_.placement == Placement::linear ? linear_position(outer, inner)
-                                                              : manson_position(outer, inner);
-    return edge.upper_inside ? mu : 1.0 - mu;
-  }
-
-  [[nodiscard]] double fraction_at(const Index3& node) const {
-    if (!grid_.is_own(node)) {
-      return grid_.cell_fraction(node, grid_.origin(node));
-    }
-    const Index3& offset = grid_.field().block.offset;
-    return grid_.field().fraction(
-        {node[0] - 1 + offset[0], node[1] - 1 + offset[1], node[2] - 1 + offset[2]});
-  }
-
-  [[nodiscard]] EdgePlane oriented(const DualEdge& edge, const UnitPlane& plane) const {
-    EdgePlane result;
-    result.a = plane.a;
-    if (!plane.has_normal()) {
-      result.is_pure = std::abs(plane.a) >= 0.5;
-      // No gradient: the normal runs along the edge, towards the outer cell.
-      result.along = result.is_pure ? 0.0 : -1.0;
-      return result;
-    }
-    result.is_pure = false;
-    result.along = edge.upper_inside ? plane.m[edge.axis] : -plane.m[edge.axis];
-    result.across0 = plane.m[(edge.axis + 1) % 3];
-    result.across1 = plane.m[(edge.axis + 2) % 3];
-    return result;
-  }
-
-  [[nodiscard]] double place_by_window(const DualEdge& edge, const UnitPlane& lower,
-                                       const UnitPlane& upper, EdgeCounts& counts) const {
-    const UnitPlane& outer = edge.upper_inside ? lower : upper;
-    const UnitPlane& inner = edge.upper_inside ? upper : lower;
-    const EdgePlane outer_plane = oriented(edge, outer);
-    const EdgePlane inner_plane = oriented(edge, inner);
-    const WindowRoot root = solve_window(outer_plane, inner_plane, [&] {
-      return Algorithm1Start{window_guess(outer_plane, inner_plane), physical_weight(edge, outer),
-                             physical_weight(edge, inner)};
-    });
-    ++counts.solved;
-    counts.steps += root.steps;
-    counts.most_steps = std::max<std::int64_t>(counts.most_steps, root.steps);
-    counts.non_monotone += root.non_monotone ? 1 : 0;
-    return edge.upper_inside ? root.mu : 1.0 - root.mu;
-  }
-
-  // Manson's position from the fractions that the planes stand for.
-  [[nodiscard]] static double window_guess(const EdgePlane& outer, const EdgePlane& inner) {
-    return manson_position(window::filling(outer, inner, 0.0).excess + 0.5,
-                           window::filling(outer, inner, 1.0).excess + 0.5);
-  }
-
-  [[nodiscard]] double physical_weight(const DualEdge& edge, const UnitPlane& plane) const {
-    const Vec3& spacing = grid_.field().grid.spacing;
-    if (!plane.has_normal()) {
-      return std::abs(plane.a) >= 0.5 ? 0.0 : spacing[edge.axis];
-    }
-    return 1.0 /
-           std::hypot(plane.m[0] / spacing[0], plane.m[1] / spacing[1], plane.m[2] / spacing[2]);
-  }
-
-  // Edges that touch a side of the domain.
-  [[nodiscard]] double place_at_side(const DualEdge& edge, EdgeCounts& counts) const {
-    const NodeOrigin lower = grid_.origin(edge.lower);
-    const NodeOrigin upper = grid_.origin(edge.upper);
-    if (!lower.constant && !upper.constant && lower.cell == upper.cell) {
-      return place_on_half_edge(edge, lower, upper);
-    }
-    const bool crossed_cells = !lower.constant && !upper.constant &&
-                               grid_.nodes().test(lower.cell) != grid_.nodes().test(upper.cell);
-    return place_by_window(edge, node_plane(edge.lower, lower, crossed_cells),
-                           node_plane(edge.upper, upper, crossed_cells), counts);
-  }
-
-  // From a cell's centre to its domain face there is one plane; it meets the edge.
-  [[nodiscard]] double place_on_half_edge(const DualEdge& edge, const NodeOrigin& lower,
-                                          const NodeOrigin& upper) const {
-    const bool face_above = upper.face[edge.axis] > 0;
-    std::array<int, 3> face = face_above ? lower.face : upper.face;
-    const UnitPlane plane = trace(grid_.planes().at(lower.cell), face);
-    const double from_centre = 2.0 * plane.a / plane.m[edge.axis];
-    return face_above ? from_centre : 1.0 + from_centre;
-  }
-
-  // The plane that stands for a node in a window: on open faces the trace of its cell's plane,
-  // which makes the window one of the face. Which planes serve depends on nothing but the two
-  // cells, so blocks that share the edge agree.
-  [[nodiscard]] UnitPlane node_plane(const Index3& node, const NodeOrigin& origin,
-                                     bool crossed_cells) const {
-    const UnitPlane plane = grid_.cell_plane(node, origin);
-    if (!origin.on_face() || origin.constant || !plane.has_normal()) {
-      return plane;
-    }
-    const bool inside = grid_.nodes().test(node);
-    const UnitPlane traced = trace(plane, origin.face);
-    const bool serves =
-        crossed_cells || grid_.field().is_interfacial(grid_.cell_fraction(node, origin));
-    if (serves && (traced.a >= 0.0) == inside) {
-      return traced.has_normal() ? traced : UnitPlane::pure(inside);
-    }
-    return UnitPlane::pure(inside);
-  }
-
-  void add_normal(const DualEdge& edge, const Index3& node, double share, Vec3& sum) const {
-    const UnitPlane plane = grid_.cell_plane(node, grid_.origin(node));
-    const double weight = share * physical_weight(edge, plane);
-    const Vec3& spacing = grid_.field().grid.spacing;
-    if (!plane.has_normal()) {
-      sum[edge.axis] += (edge.upper_inside ? -weight : weight) / spacing[edge.axis];
-      return;
-    }
-    for (std::size_t t = 0; t < 3; ++t) {
-      sum[t] += weight * plane.m[t] / spacing[t];
-    }
-  }
-
-  const DualGrid& grid_;
-  const Options& options_;
-  bool with_planes_;
-};
 
 // Calls visit(bit, axis) for the crossed edges of a word in the order of their ids.
 template <class Visit>
@@ -239,72 +28,176 @@ void for_each_edge(const EdgeWord& word, const Visit& visit) {
   }
 }
 
-std::uint64_t edge_id(const BlockField& field, const Index3& node, std::size_t axis) {
-  std::uint64_t number = 0;
-  for (std::size_t t = 3; t-- > 0;) {
-    number = number * static_cast<std::uint64_t>(field.grid.dims[t] + 2) +
-             static_cast<std::uint64_t>(node[t] + field.block.offset[t]);
-  }
-  return 3 * number + axis;
-}
+// Places the vertices of rows of nodes, on a field of T.
+template <class T>
+class RowPlacer {
+ public:
+  RowPlacer(const VertexPlacer& placer, Mesh& mesh)
+      : placer_(placer),
+        grid_(placer.grid()),
+        with_planes_(placer.options().placement == Placement::plic),
+        writer_(placer, mesh),
+        queue_(placer, writer_, counts_) {}
 
-// True if the edge lies in an outermost plane of nodes: the mesh ends there.
-bool lies_on_end(const NodeBits& nodes, const DualEdge& edge) {
-  for (std::size_t t = 0; t < 3; ++t) {
-    if (t != edge.axis && (edge.lower[t] == nodes.first()[t] || edge.lower[t] == nodes.last()[t])) {
-      return true;
+  void place_row(std::int64_t j, std::int64_t k, std::int64_t first_vertex) {
+    const NodeBits& nodes = grid_.nodes();
+    const EdgeRow edges(nodes, j, k);
+    const Index3& dims = grid_.field().block.dims;
+    // Rows whose edges in y, and in z, lead to cells of the block from such.
+    const bool own = j >= 1 && k >= 1 && j <= dims[1] && k <= dims[2];
+    const bool own_along[3] = {own, own && j < dims[1], own && k < dims[2]};
+    if (with_planes_) {
+      planes_[0] = PlaneTable::Row(grid_.planes(), j, k);
+      planes_[1] = PlaneTable::Row(grid_.planes(), std::min(j + 1, nodes.last()[1]), k);
+      planes_[2] = PlaneTable::Row(grid_.planes(), j, std::min(k + 1, nodes.last()[2]));
+    }
+    const T* const row = own ? row_of_cells(j, k) : nullptr;
+    const bool ends_y = is_end(1, j);
+    const bool ends_z = is_end(2, k);
+    auto vertex = static_cast<std::size_t>(first_vertex);
+    for (std::int64_t w = 0; w < nodes.words(); ++w) {
+      if (with_planes_) {
+        for (PlaneTable::Row& each : planes_) {
+          each.enter_word(w);
+        }
+      }
+      for_each_edge(edges.word(w), [&](int bit, std::size_t axis) {
+        const Index3 node{64 * w + bit, j, k};
+        counts_.on_end = counts_.on_end || (axis != 0 && is_end(0, node[0])) ||
+                         (axis != 1 && ends_y) || (axis != 2 && ends_z);
+        const bool upper_inside = !nodes.test(node);
+        if (own_along[axis] && node[0] >= 1 && node[0] + (axis == 0 ? 1 : 0) <= dims[0]) {
+          place_own(node, axis, upper_inside, bit, row, vertex++);
+          return;
+        }
+        DualEdge edge{node, node, axis, upper_inside};
+        ++edge.upper[axis];
+        const double share = placer_.place(edge, counts_);
+        writer_.write(vertex++, edge, share, placer_.position(edge, share));
+      });
     }
   }
-  return false;
-}
 
-void place_row(const DualGrid& grid, const VertexPlacer& placer, std::int64_t row,
-               std::int64_t vertex, Mesh& mesh, EdgeCounts& counts) {
-  const NodeBits& nodes = grid.nodes();
-  const std::int64_t row_length = nodes.last()[1] + 1;
-  const std::int64_t j = row % row_length;
-  const std::int64_t k = row / row_length;
-  const EdgeRow edges(nodes, j, k);
-  for (std::int64_t w = 0; w < nodes.words(); ++w) {
-    for_each_edge(edges.word(w), [&](int bit, std::size_t axis) {
-      DualEdge edge{{64 * w + bit, j, k}, {64 * w + bit, j, k}, axis, false};
-      ++edge.upper[axis];
-      edge.upper_inside = nodes.test(edge.upper);
-      const double share = placer.place(edge, counts);
-      const auto number = static_cast<std::size_t>(vertex++);
-      mesh.positions[number] = placer.position(edge, share);
-      if (!mesh.normals.empty()) {
-        mesh.normals[number] = placer.normal(edge, share);
+  // Asks for the cells that place_row() will read.
+  void read_ahead(std::int64_t j, std::int64_t k) const {
+    const Index3& dims = grid_.field().block.dims;
+    if (with_planes_ || j < 1 || k < 1 || j > dims[1] || k > dims[2]) {
+      return;
+    }
+    const NodeBits& nodes = grid_.nodes();
+    const EdgeRow edges(nodes, j, k);
+    const Index3& strides = grid_.field().view.strides;
+    const T* const row = row_of_cells(j, k);
+    for (std::int64_t w = 0; w < nodes.words(); ++w) {
+      const EdgeWord word = edges.word(w);
+      for (std::uint64_t left = word.any(); left != 0; left &= left - 1) {
+        const std::int64_t i = 64 * w + std::countr_zero(left);
+        const T* const cell = row + (i - 1) * strides[0];
+        hint_read(cell);
+        if ((word.y & left & -left) != 0) {
+          hint_read(cell + strides[1]);
+        }
+        if ((word.z & left & -left) != 0) {
+          hint_read(cell + strides[2]);
+        }
       }
-      if (!mesh.edge_ids.empty()) {
-        mesh.edge_ids[number] = edge_id(grid.field(), edge.lower, axis);
-      }
-      counts.on_end = counts.on_end || lies_on_end(nodes, edge);
-    });
+    }
   }
-}
+
+  const EdgeCounts& finish() {
+    queue_.flush();
+    return counts_;
+  }
+
+ private:
+  [[nodiscard]] const T* row_of_cells(std::int64_t j, std::int64_t k) const {
+    const BlockField& field = grid_.field();
+    const Index3& offset = field.block.offset;
+    return static_cast<const T*>(field.view.data) +
+           field.element({offset[0], j - 1 + offset[1], k - 1 + offset[2]});
+  }
+
+  // True for the outermost nodes: an edge across the axis there lies where the mesh ends.
+  [[nodiscard]] bool is_end(std::size_t axis, std::int64_t local) const {
+    return local == grid_.nodes().first()[axis] || local == grid_.nodes().last()[axis];
+  }
+
+  // An edge between cells of the block; `row` is that of its lower cell.
+  void place_own(const Index3& node, std::size_t axis, bool upper_inside, int bit, const T* row,
+                 std::size_t vertex) {
+    if (with_planes_) {
+      const UnitPlane& lower = planes_[0].at(bit);
+      const UnitPlane& upper =
+          axis != 0 ? planes_[axis].at(bit) : (bit < 63 ? (&lower)[1] : planes_[0].first_of_next());
+      queue_.add(node, axis, upper_inside, vertex, lower, upper);
+      return;
+    }
+    const Index3& strides = grid_.field().view.strides;
+    const T* const cell = row + (node[0] - 1) * strides[0];
+    DualEdge edge{node, node, axis, upper_inside};
+    ++edge.upper[axis];
+    const double share = placer_.cleared(
+        placer_.share_of(edge, fraction_of(*cell), fraction_of(cell[strides[axis]])));
+    writer_.write(vertex, edge, share, placer_.position_between_cells(edge, share));
+  }
+
+  const VertexPlacer& placer_;
+  const DualGrid& grid_;
+  bool with_planes_;
+  EdgeCounts counts_;
+  VertexWriter writer_;
+  WindowQueue queue_;
+  std::array<PlaneTable::Row, 3> planes_;
+};
+
+// Holds rows back until what they read has arrived.
+class RowsAhead {
+ public:
+  // Calls place(row) for the row pushed kAhead ago.
+  template <class Place>
+  void push(std::int64_t row, const Place& place) {
+    std::int64_t& slot = rows_[static_cast<std::size_t>(next_ % kAhead)];
+    if (next_ >= kAhead) {
+      place(slot);
+    }
+    slot = row;
+    ++next_;
+  }
+  template <class Place>
+  void drain(const Place& place) {
+    for (std::int64_t n = std::max<std::int64_t>(0, next_ - kAhead); n < next_; ++n) {
+      place(rows_[static_cast<std::size_t>(n % kAhead)]);
+    }
+  }
+
+ private:
+  static constexpr std::int64_t kAhead = 8;
+  std::array<std::int64_t, kAhead> rows_{};
+  std::int64_t next_ = 0;
+};
 
 }  // namespace
 
 std::vector<std::int64_t> count_vertices(const NodeBits& nodes, Phases& phases) {
   const std::int64_t row_length = nodes.last()[1] + 1;
   std::vector<std::int64_t> start(static_cast<std::size_t>(nodes.rows()) + 1, 0);
-  phases.run(0.02, nodes.rows(), kRowsPerPortion, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t row = begin; row < end; ++row) {
-      const std::int64_t j = row % row_length;
-      const std::int64_t k = row / row_length;
-      if (j < nodes.first()[1] || k < nodes.first()[2]) {
-        continue;
-      }
-      const EdgeRow edges(nodes, j, k);
-      std::int64_t count = 0;
-      for (std::int64_t w = 0; w < nodes.words(); ++w) {
-        const EdgeWord word = edges.word(w);
-        count += word.any() != 0 ? word.count() : 0;
-      }
-      start[static_cast<std::size_t>(row) + 1] = count;
-    }
-  });
+  phases.run(0.02, nodes.rows(), rows_per_portion(nodes),
+             [&](std::int64_t begin, std::int64_t end) {
+               for (std::int64_t row = begin; row < end; ++row) {
+                 const std::int64_t j = row % row_length;
+                 const std::int64_t k = row / row_length;
+                 if (j < nodes.first()[1] || k < nodes.first()[2] || is_bare(nodes, j, k)) {
+                   continue;
+                 }
+                 const EdgeRow edges(nodes, j, k);
+                 std::int64_t count = 0;
+                 for (std::int64_t w = 0; w < nodes.words(); ++w) {
+                   const EdgeWord word = edges.word(w);
+                   count += word.any() != 0 ? word.count() : 0;
+                 }
+                 start[static_cast<std::size_t>(row) + 1] = count;
+               }
+             });
   for (std::size_t row = 1; row < start.size(); ++row) {
     start[row] += start[row - 1];
   }
@@ -318,19 +211,31 @@ void place_vertices(const DualGrid& grid, const Options& options,
   mesh.positions.resize(total);
   mesh.normals.resize(options.vertex_normals ? total : 0);
   mesh.edge_ids.resize(options.edge_ids ? total : 0);
+  hint_large_pages(mesh.positions);
+  hint_large_pages(mesh.normals);
   const VertexPlacer placer(grid, options);
   const std::int64_t rows = grid.nodes().rows();
-  std::vector<EdgeCounts> portions(
-      static_cast<std::size_t>((rows + kRowsPerPortion - 1) / kRowsPerPortion));
-  phases.run(0.25, rows, kRowsPerPortion, [&](std::int64_t begin, std::int64_t end) {
-    EdgeCounts counts;
-    for (std::int64_t row = begin; row < end; ++row) {
-      const std::int64_t vertex = row_start[static_cast<std::size_t>(row)];
-      if (vertex != row_start[static_cast<std::size_t>(row) + 1]) {
-        place_row(grid, placer, row, vertex, mesh, counts);
+  const std::int64_t grain = rows_per_portion(grid.nodes());
+  const std::int64_t row_length = grid.nodes().last()[1] + 1;
+  std::vector<EdgeCounts> portions(static_cast<std::size_t>((rows + grain - 1) / grain));
+  with_scalar(grid.field().view.type, [&](auto type) {
+    phases.run(0.25, rows, grain, [&](std::int64_t begin, std::int64_t end) {
+      RowPlacer<decltype(type)> row_placer(placer, mesh);
+      RowsAhead ahead;
+      const auto place = [&](std::int64_t row) {
+        row_placer.place_row(row % row_length, row / row_length,
+                             row_start[static_cast<std::size_t>(row)]);
+      };
+      for (std::int64_t row = begin; row < end; ++row) {
+        if (row_start[static_cast<std::size_t>(row)] !=
+            row_start[static_cast<std::size_t>(row) + 1]) {
+          row_placer.read_ahead(row % row_length, row / row_length);
+          ahead.push(row, place);
+        }
       }
-    }
-    portions[static_cast<std::size_t>(begin / kRowsPerPortion)] = counts;
+      ahead.drain(place);
+      portions[static_cast<std::size_t>(begin / grain)] = row_placer.finish();
+    });
   });
   std::int64_t steps = 0;
   for (const EdgeCounts& counts : portions) {

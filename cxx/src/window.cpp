@@ -4,23 +4,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
 #include "unit_plane.hpp"
 
 namespace difmesh::detail::window {
 namespace {
 
-// Wetted share of the cross-section of a cell at distance s from its centre along the edge.
-double section(const EdgePlane& plane, double s) {
-  return square_fraction(plane.across0, plane.across1, plane.a - plane.along * s);
-}
-
-// Wetted share of T that a cell contributes: its slab of the given width about s.
-double slab(const EdgePlane& plane, double s, double width) {
-  return width * cube_fraction(plane.along * width, plane.across0, plane.across1,
-                               plane.a - plane.along * s);
-}
+using baseline::filling;
 
 // Shares and slopes below this are rounding.
 constexpr double kRounding = 1e-13;
@@ -45,9 +35,15 @@ std::array<double, 10> pieces(const EdgePlane& outer, const EdgePlane& inner) {
 }
 
 // Points between which the share is monotone: the pieces, cut where their slope is 0.
-std::vector<double> turning_points(const EdgePlane& outer, const EdgePlane& inner) {
-  const std::array<double, 10> ends = pieces(outer, inner);
-  std::vector<double> turns{0.0};
+struct Turns {
+  std::array<double, 28> at{0.0};
+  std::size_t count = 1;
+
+  void add(double mu) { at[count++] = mu; }
+};
+
+Turns turning_points(const Plane& outer, const Plane& inner, const std::array<double, 10>& ends) {
+  Turns turns;
   for (std::size_t n = 1; n < ends.size(); ++n) {
     const double low = ends[n - 1];
     const double size = ends[n] - low;
@@ -70,10 +66,10 @@ std::vector<double> turning_points(const EdgePlane& outer, const EdgePlane& inne
     const bool ascending = zeros[0] <= zeros[1];
     for (const double t : {zeros[ascending ? 0 : 1], zeros[ascending ? 1 : 0]}) {
       if (t > -1.0 && t < 1.0) {
-        turns.push_back(low + size * (0.5 + 0.5 * t));
+        turns.add(low + size * (0.5 + 0.5 * t));
       }
     }
-    turns.push_back(ends[n]);
+    turns.add(ends[n]);
   }
   return turns;
 }
@@ -85,9 +81,11 @@ double away(double mu, double low, double high) {
 // Algorithm 1 of E19: window, fraction, blended normal, plane, slide, until it settles.
 double iterate(const EdgePlane& outer, const EdgePlane& inner, const Algorithm1Start& start) {
   constexpr int kMost = 200;
+  const Plane outer_plane = prepared(outer);
+  const Plane inner_plane = prepared(inner);
   double mu = start.mu;
   for (int step = 0; step < kMost; ++step) {
-    const double share = filling(outer, inner, mu).excess + 0.5;
+    const double share = filling(outer_plane, inner_plane, mu).excess + 0.5;
     const double w0 = (1.0 - mu) * start.outer_weight;
     const double w1 = mu * start.inner_weight;
     const double along = w0 * outer.along + w1 * inner.along;
@@ -106,65 +104,24 @@ double iterate(const EdgePlane& outer, const EdgePlane& inner, const Algorithm1S
   return mu;
 }
 
-}  // namespace
-
-Filling filling(const EdgePlane& outer, const EdgePlane& inner, double mu) {
-  const double in_outer = slab(outer, mu / 2.0, 1.0 - mu);
-  const double in_inner = slab(inner, (mu - 1.0) / 2.0, mu);
-  return {in_outer + in_inner - 0.5, section(inner, mu - 0.5) - section(outer, mu - 0.5)};
-}
-
-bool surely_monotone(const EdgePlane& outer, const EdgePlane& inner) {
-  // With both normals towards K0 the sections grow along the edge, so comparing the least of one
-  // half of K1 with the most of the same half of K0 bounds the slope.
-  return outer.along <= 0.0 && inner.along <= 0.0 && section(inner, -0.5) >= section(outer, 0.0) &&
-         section(inner, 0.0) >= section(outer, 0.5);
-}
-
-WindowRoot newton(const EdgePlane& outer, const EdgePlane& inner, double low, double high,
-                  double start) {
-  constexpr int kMost = 100;
-  WindowRoot root;
-  root.mu = start > low && start < high ? start : low + (high - low) / 2.0;
-  while (root.steps < kMost) {
-    const Filling here = filling(outer, inner, root.mu);
-    ++root.steps;
-    if (std::abs(here.excess) <= 0x1p-53) {
-      return root;
-    }
-    (here.excess < 0.0 ? low : high) = root.mu;
-    double next = root.mu - here.excess / here.slope;
-    if (!(next >= low && next <= high)) {
-      next = low + (high - low) / 2.0;
-    }
-    const double step = std::abs(next - root.mu);
-    root.mu = next;
-    if (step <= 1e-12) {
-      return root;
-    }
-  }
-  return root;
-}
-
-double plane_crossing(const EdgePlane& outer, const EdgePlane& inner) {
-  const double from_outer = outer.a / outer.along;
-  const double from_inner = 1.0 + inner.a / inner.along;
-  const bool outer_serves = from_outer > 0.0 && from_outer < 1.0;
-  const bool inner_serves = from_inner > 0.0 && from_inner < 1.0;
-  if (outer_serves && inner_serves) {
-    return 0.5 * (from_outer + from_inner);
-  }
-  return outer_serves ? from_outer : (inner_serves ? from_inner : 0.5);
-}
+// The bracket of the root to take, from all extrema of the share along the edge.
+struct Bracket {
+  double low = 0.0;
+  double high = 1.0;
+  bool non_monotone = false;
+  int roots = 0;
+};
 
 Bracket examine(const EdgePlane& outer, const EdgePlane& inner, const Algorithm1Start& start) {
-  const std::vector<double> turns = turning_points(outer, inner);
-  Bracket bracket{0.0, 1.0, false, 0};
+  const Plane outer_plane = prepared(outer);
+  const Plane inner_plane = prepared(inner);
+  const Turns turns = turning_points(outer_plane, inner_plane, pieces(outer, inner));
+  Bracket bracket;
   double reached = -1.0;
   double distance = 2.0;
-  double before = filling(outer, inner, turns.front()).excess;
-  for (std::size_t n = 1; n < turns.size(); ++n) {
-    const double after = filling(outer, inner, turns[n]).excess;
+  double before = filling(outer_plane, inner_plane, 0.0).excess;
+  for (std::size_t n = 1; n < turns.count; ++n) {
+    const double after = filling(outer_plane, inner_plane, turns.at[n]).excess;
     bracket.non_monotone = bracket.non_monotone || after < before - kRounding;
     if (before < 0.0 && after >= 0.0) {
       ++bracket.roots;
@@ -172,15 +129,35 @@ Bracket examine(const EdgePlane& outer, const EdgePlane& inner, const Algorithm1
         reached = iterate(outer, inner, start);
         distance = away(reached, bracket.low, bracket.high);
       }
-      if (bracket.roots == 1 || away(reached, turns[n - 1], turns[n]) < distance) {
-        bracket.low = turns[n - 1];
-        bracket.high = turns[n];
+      if (bracket.roots == 1 || away(reached, turns.at[n - 1], turns.at[n]) < distance) {
+        bracket.low = turns.at[n - 1];
+        bracket.high = turns.at[n];
         distance = away(reached, bracket.low, bracket.high);
       }
     }
     before = after;
   }
   return bracket;
+}
+
+WindowRoot newton(const Plane& outer, const Plane& inner, double low, double high) {
+  const baseline::NewtonRoot<double> root =
+      baseline::newton(outer, inner, low, high, baseline::plane_crossing(outer, inner));
+  return {root.mu, static_cast<int>(root.steps), false};
+}
+
+}  // namespace
+
+WindowRoot solve_monotone(const Plane& outer, const Plane& inner) {
+  return newton(outer, inner, 0.0, 1.0);
+}
+
+WindowRoot solve_examined(const EdgePlane& outer, const EdgePlane& inner,
+                          const Algorithm1Start& start) {
+  const Bracket bracket = examine(outer, inner, start);
+  WindowRoot root = newton(prepared(outer), prepared(inner), bracket.low, bracket.high);
+  root.non_monotone = bracket.non_monotone;
+  return root;
 }
 
 }  // namespace difmesh::detail::window

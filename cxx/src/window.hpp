@@ -6,6 +6,7 @@
 // its own cell, fill half of T.
 
 #include "difmesh/grid.hpp"
+#include "window_math.hpp"
 
 namespace difmesh::detail {
 
@@ -42,45 +43,29 @@ template <class Start>
 
 namespace window {
 
-/// Share of T filled, less 1/2, and its derivative.
-struct Filling {
-  double excess;
-  double slope;
-};
-[[nodiscard]] Filling filling(const EdgePlane& outer, const EdgePlane& inner, double mu);
+using Plane = baseline::WindowPlane<double>;
 
-/// Cheap proof that the share grows all along the edge; false where it does not go through.
-[[nodiscard]] bool surely_monotone(const EdgePlane& outer, const EdgePlane& inner);
+[[nodiscard]] inline Plane prepared(const EdgePlane& plane) {
+  return baseline::window_plane(plane.along, plane.across0, plane.across1, plane.a);
+}
 
-/// Newton's method from `start`, kept within [low, high] by bisection.
-[[nodiscard]] WindowRoot newton(const EdgePlane& outer, const EdgePlane& inner, double low,
-                                double high, double start);
+/// Newton's method where the share is monotone along the edge.
+[[nodiscard]] WindowRoot solve_monotone(const Plane& outer, const Plane& inner);
 
-/// Start for Newton's method: where the planes themselves meet the edge.
-[[nodiscard]] double plane_crossing(const EdgePlane& outer, const EdgePlane& inner);
-
-/// The bracket of the root to take, from all extrema of the share along the edge.
-struct Bracket {
-  double low;
-  double high;
-  bool non_monotone;
-  int roots;
-};
-[[nodiscard]] Bracket examine(const EdgePlane& outer, const EdgePlane& inner,
-                              const Algorithm1Start& start);
+/// The root to take from all extrema of the share along the edge.
+[[nodiscard]] WindowRoot solve_examined(const EdgePlane& outer, const EdgePlane& inner,
+                                        const Algorithm1Start& start);
 
 }  // namespace window
 
 template <class Start>
 WindowRoot solve_window(const EdgePlane& outer, const EdgePlane& inner, const Start& start) {
-  if (outer.is_pure || inner.is_pure || window::surely_monotone(outer, inner)) {
-    return window::newton(outer, inner, 0.0, 1.0, window::plane_crossing(outer, inner));
+  const window::Plane outer_plane = window::prepared(outer);
+  const window::Plane inner_plane = window::prepared(inner);
+  if (outer.is_pure || inner.is_pure || baseline::surely_monotone(outer_plane, inner_plane)) {
+    return window::solve_monotone(outer_plane, inner_plane);
   }
-  const window::Bracket bracket = window::examine(outer, inner, start());
-  WindowRoot root =
-      window::newton(outer, inner, bracket.low, bracket.high, window::plane_crossing(outer, inner));
-  root.non_monotone = bracket.non_monotone;
-  return root;
+  return window::solve_examined(outer, inner, start());
 }
 
 }  // namespace difmesh::detail

@@ -72,6 +72,11 @@ TEST_CASE("help of reconstruct names every option and choice") {
                            "--raw-type",
                            "--raw-big-endian",
                            "--raw-offset",
+                           "--color-by",
+                           "angle",
+                           "error",
+                           "--shape",
+                           "--reference",
                            "Examples:"}) {
     CAPTURE(word);
     CHECK(holds(help.out, word));

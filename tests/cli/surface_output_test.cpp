@@ -131,6 +131,97 @@ TEST_CASE("reconstruct writes glb with normals and edge ids and colours") {
         Json({{"attribute", "_ANGLE"}, {"map", "cool_warm"}, {"low", -10.0}, {"high", 20.0}}));
 }
 
+#ifdef DIFMESH_WITH_METRICS
+namespace {
+
+/// A ball's field, and its surface's distances from the ball as they should be.
+struct BallPlace {
+  TempFolder folder;
+  std::string field = (folder / "ball.nrrd").string();
+  std::string glb = (folder / "ball.glb").string();
+
+  BallPlace() {
+    check_succeeds(run_program({"sample", "sphere", "-o", field, "--cells", "16", "--radius", "2",
+                                "--centre", "1,2,3", "--quiet"}));
+  }
+  [[nodiscard]] static difmesh::Array<double> errors(const Mesh& mesh) {
+    difmesh::Array<double> errors;
+    for (const Vec3& p : mesh.positions) {
+      errors.push_back(std::hypot(p[0] - 1.0, p[1] - 2.0, p[2] - 3.0) - 2.0);
+    }
+    return errors;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("reconstruct colours by the error against a shape and a mesh") {
+  const BallPlace place;
+  check_succeeds(run_program({"reconstruct", place.field, "-o", place.glb, "--color-by", "error",
+                              "--shape", "sphere", "--radius", "2", "--centre", "1,2,3"}));
+  const ScalarMesh found = difmesh::read_gltf(place.glb);
+  const difmesh::Array<double> wanted = BallPlace::errors(found.mesh);
+  REQUIRE(found.scalars.size() == 1);
+  CHECK(found.scalars[0].name == "error");
+  double largest = 0.0;
+  for (std::size_t v = 0; v < wanted.size(); ++v) {
+    REQUIRE(std::abs(found.scalars[0].values[v] - wanted[v]) < 1e-6);
+    largest = std::max(largest, std::abs(found.scalars[0].values[v]));
+  }
+  CHECK(largest > 1e-3);
+  CHECK(largest < 0.02);
+  const Json colour = Glb(test::read_bytes(place.glb))
+                          .json.at("meshes")
+                          .at(0)
+                          .at("extras")
+                          .at("difmesh")
+                          .at("COLOR_0");
+  CHECK(colour.at("attribute") == "_ERROR");
+  CHECK(colour.at("map") == "cool_warm");  // the one that diverges, unless told otherwise
+  CHECK(colour.at("high").get<double>() == doctest::Approx(largest));
+  CHECK(colour.at("low").get<double>() == doctest::Approx(-largest));
+
+  // Against a mesh of it that is finer than the errors, and written without colours.
+  const std::string fine = (place.folder / "fine.nrrd").string();
+  const std::string reference = (place.folder / "fine.ply").string();
+  check_succeeds(run_program({"sample", "sphere", "-o", fine, "--cells", "64", "--radius", "2",
+                              "--centre", "1,2,3", "--quiet"}));
+  check_succeeds(run_program({"reconstruct", fine, "-o", reference, "--quiet"}));
+  for (const std::string name : {"again.glb", "again.drc"}) {
+    const std::string again = (place.folder / name).string();
+    check_succeeds(
+        run_program({"reconstruct", place.field, "-o", again, "--reference", reference}));
+    const ScalarMesh other = difmesh::read_scalar_mesh(again);
+    REQUIRE(other.scalars.size() == 1);
+    CHECK(other.scalars[0].name == "error");
+    const difmesh::Array<double> errors = BallPlace::errors(other.mesh);
+    double difference = 0.0;
+    for (std::size_t v = 0; v < errors.size(); ++v) {
+      difference = std::max(difference, std::abs(other.scalars[0].values[v] - errors[v]));
+    }
+    CHECK(difference < 0.25 * largest);
+  }
+}
+
+TEST_CASE("what errors are against is checked before the work begins") {
+  const BallPlace place;
+  const auto refused = [&](const std::string& name, const Words& options, int code,
+                           std::initializer_list<std::string> words) {
+    Words all{"reconstruct", place.field, "-o", (place.folder / name).string()};
+    all.insert(all.end(), options.begin(), options.end());
+    check_fails(run_program(all), code, words);
+    CHECK(place.folder.names() == Words{"ball.nrrd"});
+  };
+  refused("m.glb", {"--color-by", "error"}, 2, {"'error'", "--shape or --reference"});
+  refused("m.glb", {"--shape", "cube"}, 2, {"--shape", "'cube'", "sphere"});
+  refused("m.glb", {"--radius", "2"}, 2, {"--radius", "only with --shape"});
+  refused("m.glb", {"--shape", "sphere", "--reference", "a.ply"}, 2, {"--shape", "--reference"});
+  refused("m.ply", {"--shape", "sphere"}, 2, {"--shape", "m.ply"});
+  refused("m.glb", {"--shape", "sphere", "--tube-radius", "2"}, 2, {"--tube-radius"});
+  refused("m.glb", {"--reference", place.folder / "none.ply"}, 1, {"none.ply"});
+}
+#endif
+
 TEST_CASE("reconstruct compresses with as many bits as asked or needed") {
   const Place place;
   const Mesh wanted = place.wanted();

@@ -121,6 +121,36 @@ TEST_CASE("view reconstructs a field in two ways") {
   }
 }
 
+TEST_CASE("view offers the error against a shape") {
+  const TempFolder folder;
+  const std::string field = (folder / "ball.nrrd").string();
+  const std::string page = (folder / "page.html").string();
+  check_succeeds(run_program({"sample", "sphere", "-o", field, "--cells", "16", "--quiet"}));
+  check_succeeds(run_program(
+      {"view", field, "-o", page, "--color-by", "error", "--shape", "sphere", "--quiet"}));
+  const Json scene = scene_of(test::read_bytes(page));
+  CHECK(scene.at("colorBy") == "error");
+  CHECK(scene.at("diverging") == true);
+  std::vector<double> largest;
+  for (const Json& surface : scene.at("surfaces")) {
+    const ScalarMesh shown = surface_of(surface, folder);
+    const auto errors =
+        std::find_if(shown.scalars.begin(), shown.scalars.end(),
+                     [](const difmesh::VertexScalars& one) { return one.name == "error"; });
+    REQUIRE(errors != shown.scalars.end());
+    largest.push_back(0.0);
+    for (std::size_t v = 0; v < errors->values.size(); ++v) {
+      const difmesh::Vec3& p = shown.mesh.positions[v];
+      REQUIRE(std::abs(errors->values[v] - (std::hypot(p[0], p[1], p[2]) - 1.0)) < 1e-6);
+      largest.back() = std::max(largest.back(), std::abs(errors->values[v]));
+    }
+  }
+  REQUIRE(largest.size() == 2);
+  CHECK(largest[1] < 0.5 * largest[0]);  // plic against linear
+  check_fails(run_program({"view", field, "-o", page, "--color-by", "error"}), 2,
+              {"'error'", "--shape or --reference"});
+}
+
 TEST_CASE("view says what is wrong with its arguments") {
   const TempFolder folder;
   const std::string mesh = (folder / "m.ply").string();

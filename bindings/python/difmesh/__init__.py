@@ -84,6 +84,9 @@ __all__ = [
 ]
 
 
+_PARTS = {"threads": 1, "files": 2, "distance": 3, "gltf": 4, "draco": 5}
+
+
 def library_version() -> str:
     """Version of the library that was loaded, "0.1.0" for instance."""
     text: bytes = _library.library.dif_version_text()
@@ -91,7 +94,7 @@ def library_version() -> str:
 
 
 def has(part: str) -> bool:
-    """Whether the library was built with "threads", "files" or "distance"."""
-    number = _choice(part, {"threads": 1, "files": 2, "distance": 3}, "part")
+    """Whether the library was built with "threads", "files", "distance", "gltf" or "draco"."""
+    number = _choice(part, _PARTS, "part")
     present: int = _library.library.dif_has(number)
     return present == 1

@@ -114,9 +114,11 @@ DIF_API const char* dif_version_text(void);
 
 /* Parts that a build may lack; their functions then return DIF_ERROR_UNSUPPORTED. */
 enum {
-  DIF_PART_THREADS = 1, /* oneTBB; without, everything runs on the calling thread */
-  DIF_PART_FILES = 2,   /* section 7 */
-  DIF_PART_DISTANCE = 3 /* dif_distance_...() of section 6 */
+  DIF_PART_THREADS = 1,  /* oneTBB; without, everything runs on the calling thread */
+  DIF_PART_FILES = 2,    /* section 7 */
+  DIF_PART_DISTANCE = 3, /* dif_distance_...() of section 6 */
+  DIF_PART_GLTF = 4,     /* the formats .glb and .gltf */
+  DIF_PART_DRACO = 5     /* the format .drc, and compressed glTF */
 };
 
 /* 1 if this build has the part, 0 if not or if there is no such part. Since 0.1. */
@@ -336,7 +338,7 @@ enum {
  * sides and purity_tolerance. cells: 3 count indices, in [0, dims). normals: 3 count numbers;
  * offsets, sources: count; any of the three may be NULL. The field is read only near these cells; NaN
  * there counts as 0.
- * Errors: as dif_reconstruct(). Cost: 0.1 to 0.3 microseconds per cell, 10 to 20 by ELVIRA
+ * Errors: as dif_reconstruct(). Cost: 0.1 to 0.3 microseconds per cell, 7 to 9 by ELVIRA
  * and LVIRA. Since 0.1. */
 DIF_API dif_status dif_cell_planes(const dif_field* field, const dif_options* options,
                                    int64_t count, const int64_t* cells, double* normals,
@@ -747,13 +749,14 @@ typedef struct dif_mesh_write_options {
 /* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
 DIF_API dif_status dif_mesh_write_options_init(dif_mesh_write_options* options,
                                                uint64_t struct_size);
-/* Errors: INVALID_ARGUMENT (also for a format that this build lacks), INVALID_VALUE (a position or
- * scalar that is not finite; for glTF and Draco a mesh without triangles), TOO_LARGE, FILE_WRITE,
- * STRUCT, OUT_OF_MEMORY. Since 0.1. */
+/* Errors: INVALID_ARGUMENT, INVALID_VALUE (a position or scalar that is not finite; for glTF and Draco
+ * a mesh without triangles), TOO_LARGE, FILE_WRITE, STRUCT, OUT_OF_MEMORY, UNSUPPORTED (DIF_PART_GLTF
+ * or DIF_PART_DRACO is not there). Since 0.1. */
 DIF_API dif_status dif_mesh_write(const dif_mesh* mesh, const char* path,
                                   const dif_mesh_write_options* options);
 /* Reads .ply, .obj, .off, .stl, .glb, .gltf or .drc, told by the extension.
- * Errors: FILE_MISSING, FILE_FORMAT, TOO_LARGE, OUT_OF_MEMORY. Since 0.1. */
+ * Errors: FILE_MISSING, FILE_FORMAT, TOO_LARGE, OUT_OF_MEMORY, UNSUPPORTED (as above; FILE_FORMAT for
+ * compressed glTF). Since 0.1. */
 DIF_API dif_status dif_mesh_read(const char* path, dif_mesh** mesh);
 
 /* A field read from a file, with its memory. */

@@ -55,7 +55,7 @@ struct Curvature {
 /// \throw Error invalid_argument for options out of range, an index out of range (the triangle is
 ///   named) or a position that is not finite (the vertex is named); too_large beyond 2^32 - 1
 ///   vertices; cancelled
-/// Cost: O(sum of the neighbours); some 1 µs per vertex on one thread for two rings of 18. A vertex
+/// Cost: O(sum of the neighbours); some 2 µs per vertex on one thread for two rings of 18. A vertex
 /// with n neighbours costs each of them n, so fans of many thousands of triangles are slow. Memory
 /// beyond the result: some 100 bytes per vertex. Thread safety: concurrent calls are safe.
 /// Source: the procedure of E19 (options.hpp), figures 8-10; curvatures of a graph: M. P. do Carmo,

@@ -33,7 +33,7 @@ struct MollifyOptions {
 /// \return one value per cell, x fastest
 /// \throw Error invalid_grid for dims < 1; invalid_argument (field or options); invalid_value for
 ///   the first cell, in the order z, y, x, that is not finite; too_large; cancelled
-/// Cost: O(cells) for the rows that are uniform as far as the kernel reaches; elsewhere some 20 ns
+/// Cost: O(cells) for the rows that are uniform as far as the kernel reaches; elsewhere some 15 ns
 /// per cell at radius 2, growing with its cube. Memory: the result and 16 bytes per row. Thread
 /// safety: concurrent calls are safe.
 /// Source: E19, figure 2c; the kernel: M. W. Williams, D. B. Kothe, E. G. Puckett, in Fluid

@@ -88,6 +88,9 @@ class Interface(unittest.TestCase):
                 if name.startswith(prefix) and value != 0
             }
             self.assertEqual(getattr(getattr(difmesh, module), table), expected)
+        parts = {"DIF_PART_" + name.upper(): value for name, value in difmesh._PARTS.items()}
+        declared = {name: value for name, value in constants.items() if "_PART_" in name}
+        self.assertEqual(parts, declared)
 
 
 class Search(unittest.TestCase):

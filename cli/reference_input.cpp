@@ -1,0 +1,86 @@
+#include "reference_input.hpp"
+
+#include <utility>
+
+#include "difmesh/error.hpp"
+#include "difmesh/io/mesh_file.hpp"
+#include "long_call.hpp"
+#include "mesh_scalars.hpp"
+#ifdef DIFMESH_WITH_METRICS
+#include "difmesh/point_distances.hpp"
+#endif
+
+namespace difmesh::cli {
+namespace {
+
+Array<double> distances_from_shape(const Mesh& mesh, const ReferenceInput& input) {
+  const Shape shape = input.shape.make(parse_shape("--shape", input.shape_name));
+  Array<double> distances;
+  distances.reserve(mesh.positions.size());
+  for (const Vec3& position : mesh.positions) {
+    distances.push_back(shape.distance(position));
+  }
+  return distances;
+}
+
+#ifdef DIFMESH_WITH_METRICS
+Array<double> distances_from_mesh(const Mesh& mesh, const ReferenceInput& input, bool quiet) {
+  const Mesh reference = read_triangles(input.path);
+  LongCall long_call("measuring", quiet);
+  DistanceOptions options;
+  options.progress = long_call.progress();
+  try {
+    PointDistances found = point_distances(mesh.positions, reference, options);
+    long_call.done();
+    return std::move(found.distances);
+  } catch (const Error& error) {
+    throw Error(error.code(), "'" + input.path + "': " + error.what());
+  }
+}
+#else
+Array<double> distances_from_mesh(const Mesh&, const ReferenceInput&, bool) {
+  throw Error(ErrorCode::invalid_argument, "difmesh was built without distances from meshes");
+}
+#endif
+
+}  // namespace
+
+void add_reference_options(CLI::App& command, ReferenceInput& input) {
+  command
+      .add_option(
+          "--shape", input.shape_name,
+          "What the surface should be: sphere, ellipsoid, torus, genus,\nsmooth_box or golf_ball")
+      ->option_text("SHAPE");
+  command
+      .add_option("--reference", input.path,
+                  "What the surface should be: a mesh (.ply, .obj, .off, .stl, .glb,\n.gltf, .drc)")
+      ->option_text("MESHFILE");
+  add_shape_options(command, input.shape);
+}
+
+void check_reference(const ReferenceInput& input) {
+  if (!input.shape_name.empty() && !input.path.empty()) {
+    throw CLI::ValidationError("--shape", "cannot be used together with --reference");
+  }
+  if (input.shape_name.empty() && !input.shape.given.empty()) {
+    throw CLI::ValidationError(input.shape.given.front(), "only with --shape");
+  }
+  if (!input.shape_name.empty()) {
+    (void)input.shape.make(parse_shape("--shape", input.shape_name));
+  }
+}
+
+Mesh read_triangles(const std::string& path) {
+  Mesh mesh = read_mesh(path);
+  if (mesh.triangles.empty()) {
+    throw Error(ErrorCode::file_format, "'" + path + "': the mesh has no triangles");
+  }
+  return mesh;
+}
+
+VertexScalars errors_of(const Mesh& mesh, const ReferenceInput& input, bool quiet) {
+  return {kErrorName, input.shape_name.empty() ? distances_from_mesh(mesh, input, quiet)
+                                               : distances_from_shape(mesh, input)};
+}
+
+}  // namespace difmesh::cli

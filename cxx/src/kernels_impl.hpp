@@ -1,0 +1,262 @@
+// The kernels, for the instruction set that the including file is compiled for. No include guard is
+// wanted: each of these files includes it once. Nothing here may call inline functions of other headers than
+// those of the same namespace; see lanes.hpp.
+
+#include "height_columns.hpp"
+#include "kernels.hpp"
+#include "normal_math.hpp"
+#include "plane_fit_math.hpp"
+#include "plane_math.hpp"
+#include "window_math.hpp"
+
+namespace difmesh::detail::DIFMESH_INSTRUCTIONS {
+namespace {
+
+// One lane per cell; slopes are of the heights along the two axes across.
+struct HeightLanes {
+  double axis[kBatch];   // of the heights; none: 3
+  double sense[kBatch];  // 1 where the material is at the low end
+  double low[2][kBatch];
+  double high[2][kBatch];
+};
+
+template <class T>
+[[gnu::always_inline]] inline void gather_heights(const PlaneTask<T>& task,
+                                                  const CellBatch<T>& cells,
+                                                  const Triple<Lanes>& normal, PlaneBatch& planes,
+                                                  HeightLanes& lanes) {
+  const Lanes largest =
+      larger(larger(magnitude(normal.v[0]), magnitude(normal.v[1])), magnitude(normal.v[2]));
+  const Lanes limit = largest * (1.0 - kTie);
+  unsigned along[3];
+  unsigned material_low[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    along[axis] = bits_of(magnitude(normal.v[axis]) >= limit);
+    material_low[axis] = bits_of(normal.v[axis] > broadcast(0.0));
+  }
+  const unsigned ties = (along[0] & along[1]) | (along[1] & along[2]) | (along[2] & along[0]);
+  for (int n = 0; n < cells.count; ++n) {
+    const unsigned bit = 1U << n;
+    if ((planes.gradient_free & bit) != 0) {
+      continue;
+    }
+    const int axis = (along[0] & bit) != 0 ? 0 : ((along[1] & bit) != 0 ? 1 : 2);
+    if ((ties & bit) != 0 || (cells.reach[n] >> axis & 1) == 0) {
+      planes.undone |= bit;
+      continue;
+    }
+    const bool low = (material_low[axis] & bit) != 0;
+    Heights heights;
+    if (!find_heights(task, cells.centre[n], axis, low, heights)) {
+      continue;
+    }
+    planes.from_heights |= bit;
+    lanes.axis[n] = axis;
+    lanes.sense[n] = low ? 1.0 : -1.0;
+    for (int t = 0; t < 2; ++t) {
+      lanes.low[t][n] = heights.low[t];
+      lanes.high[t][n] = heights.high[t];
+    }
+  }
+}
+
+// Heights' normals in the lanes that have them.
+[[gnu::always_inline]] inline void take_heights(const HeightLanes& lanes, Triple<Lanes>& normal) {
+  const Lanes axis = load(lanes.axis);
+  const Lanes sense = load(lanes.sense);
+  const Lanes slope0 = -((load(lanes.high[0]) - load(lanes.low[0])) * 0.5);
+  const Lanes slope1 = -((load(lanes.high[1]) - load(lanes.low[1])) * 0.5);
+  const LaneMask is_x = axis == 0.0;
+  const LaneMask is_y = axis == 1.0;
+  const LaneMask is_z = axis == 2.0;
+  Triple<Lanes> m{{select(is_x, sense, slope0), select(is_x, slope0, select(is_y, sense, slope1)),
+                   select(is_z, sense, slope1)}};
+  const Lanes size = norm1(m);
+  for (Lanes& component : m.v) {
+    component = component / size + 0.0;
+  }
+  m = scaled(m, 1.0 / norm1(m));
+  const LaneMask takes = is_x | is_y | is_z;
+  for (int t = 0; t < 3; ++t) {
+    normal.v[t] = select(takes, m.v[t], normal.v[t]);
+  }
+}
+
+// The values at x - 1, x and x + 1 of eight cells, whose rows of four begin at x - 1.
+template <class V4>
+[[gnu::always_inline]] inline void transpose(const V4 (&row)[kBatch], Floats8 (&columns)[3]) {
+  Floats8 two[4];
+  for (int n = 0; n < 4; ++n) {
+    two[n] = __builtin_shufflevector(row[n], row[n + 4], 0, 1, 2, 3, 4, 5, 6, 7);
+  }
+  const Floats8 low01 = __builtin_shufflevector(two[0], two[1], 0, 8, 1, 9, 4, 12, 5, 13);
+  const Floats8 low23 = __builtin_shufflevector(two[2], two[3], 0, 8, 1, 9, 4, 12, 5, 13);
+  const Floats8 high01 = __builtin_shufflevector(two[0], two[1], 2, 10, 3, 11, 6, 14, 7, 15);
+  const Floats8 high23 = __builtin_shufflevector(two[2], two[3], 2, 10, 3, 11, 6, 14, 7, 15);
+  columns[0] = __builtin_shufflevector(low01, low23, 0, 1, 8, 9, 4, 5, 12, 13);
+  columns[1] = __builtin_shufflevector(low01, low23, 2, 3, 10, 11, 6, 7, 14, 15);
+  columns[2] = __builtin_shufflevector(high01, high23, 0, 1, 8, 9, 4, 5, 12, 13);
+}
+
+template <class T>
+[[gnu::always_inline]] inline void gather_row(const T* const (&row)[kBatch],
+                                              T (&columns)[3][kBatch]) {
+  if constexpr (sizeof(T) == sizeof(float) && kIsFloating<T>) {
+    Floats4 four[kBatch];
+    for (int n = 0; n < kBatch; ++n) {
+      four[n] = load_elements<Floats4>(row[n] - 1);
+    }
+    Floats8 transposed[3];
+    transpose(four, transposed);
+    __builtin_memcpy(columns, transposed, sizeof columns);
+  } else {
+    for (int n = 0; n < kBatch; ++n) {
+      for (int i = 0; i < 3; ++i) {
+        columns[i][n] = row[n][i - 1];
+      }
+    }
+  }
+}
+
+template <class T>
+[[gnu::always_inline]] inline void gather_neighbours(const PlaneTask<T>& task,
+                                                     const CellBatch<T>& cells, Lanes (&c)[27]) {
+  for (int k = 0; k < 3; ++k) {
+    for (int j = 0; j < 3; ++j) {
+      const T* row[kBatch];
+      for (int n = 0; n < kBatch; ++n) {
+        row[n] = cells.centre[n < cells.count ? n : 0] + (k - 1) * task.strides[2] +
+                 (j - 1) * task.strides[1];
+      }
+      alignas(64) T columns[3][kBatch];
+      gather_row(row, columns);
+      for (int i = 0; i < 3; ++i) {
+        c[9 * k + 3 * j + i] = lanes_of_fractions(columns[i]);
+      }
+    }
+  }
+}
+
+template <class T>
+void fit_planes(const PlaneTask<T>& task, const CellBatch<T>& cells, PlaneBatch& planes) {
+  constexpr double kAllThere[3][3] = {{1.0, 1.0, 1.0}, {1.0, 1.0, 1.0}, {1.0, 1.0, 1.0}};
+  Lanes c[27];
+  gather_neighbours(task, cells, c);
+  Triple<Lanes> normal = youngs(c);
+  const Lanes size = norm1(normal);
+  planes.gradient_free = bits_of(size < broadcast(kTie)) & ((1U << cells.count) - 1U);
+  planes.from_heights = 0;
+  planes.undone = 0;
+  normal = scaled(normal, 1.0 / size);
+  if (task.centred_columns) {
+    normal = mixed_normal(c, kAllThere, normal).m;
+  }
+  if (task.heights) {
+    HeightLanes lanes;
+    for (int n = 0; n < kBatch; ++n) {
+      lanes.axis[n] = 3.0;
+      lanes.sense[n] = 1.0;
+      lanes.low[0][n] = lanes.low[1][n] = lanes.high[0][n] = lanes.high[1][n] = 0.0;
+    }
+    gather_heights(task, cells, normal, planes, lanes);
+    if (planes.from_heights != 0) {
+      take_heights(lanes, normal);
+    }
+  }
+  for (int t = 0; t < 3; ++t) {
+    store(normal.v[t], planes.m[t]);
+  }
+  store(offset_of_share(sorted(normal.v[0], normal.v[1], normal.v[2]), c[13]), planes.a);
+}
+
+void solve_windows(WindowBatch& batch) {
+  const auto plane = [](const double(&of)[4][kBatch]) {
+    return window_plane(load(of[0]), load(of[1]), load(of[2]), load(of[3]));
+  };
+  const WindowPlane<Lanes> outer = plane(batch.outer);
+  const WindowPlane<Lanes> inner = plane(batch.inner);
+  const unsigned there = batch.count == kBatch ? 0xffU : (1U << batch.count) - 1U;
+  batch.undone = ~(bits_of(surely_monotone(outer, inner)) | batch.pure) & there;
+  const NewtonRoot<Lanes> root =
+      newton(outer, inner, broadcast(0.0), broadcast(1.0), plane_crossing(outer, inner));
+  store(root.mu, batch.mu);
+  store(root.steps, batch.steps);
+}
+
+void fit_plane_to_neighbours(FitTask& task) {
+  PlaneSearch(task).run(task.m);
+}
+
+// True if all bits of a group are those of `value`, zero or one.
+template <class T>
+[[gnu::always_inline]] inline bool is_all(const T* values, T value) {
+  constexpr int kVectors = static_cast<int>(kGroup * sizeof(T) / sizeof(LaneBits));
+  T repeated[sizeof(LaneBits) / sizeof(T)];
+  for (T& each : repeated) {
+    each = value;
+  }
+  LaneBits wanted;
+  __builtin_memcpy(&wanted, repeated, sizeof wanted);
+  LaneBits differing = wanted ^ wanted;
+  for (int n = 0; n < kVectors; ++n) {
+    LaneBits bits;
+    __builtin_memcpy(&bits,
+                     reinterpret_cast<const char*>(values) + n * static_cast<int>(sizeof bits),
+                     sizeof bits);
+    differing = differing | (bits ^ wanted);
+  }
+  return !any_bit(differing);
+}
+
+// Eight elements, to be compared.
+[[gnu::always_inline]] inline Floats8 elements_of_group(const float* values) {
+  return load_elements<Floats8>(values);
+}
+[[gnu::always_inline]] inline Lanes elements_of_group(const double* values) {
+  return load(values);
+}
+
+template <class T>
+[[gnu::always_inline]] inline void classify_mixed(const GroupTask<T>& task, const T* values,
+                                                  std::int64_t group, GroupFacts& facts) {
+  std::uint64_t inside = 0;
+  std::uint64_t interfacial = 0;
+  unsigned outside = 0;
+  Lanes sum = broadcast(0.0);
+  for (int n = 0; n < kGroup; n += kLanes) {
+    sum = sum + lanes_of_fractions(values + n);
+    const auto eight = elements_of_group(values + n);
+    inside |= static_cast<std::uint64_t>(bits_of(eight >= static_cast<T>(0.5))) << n;
+    interfacial |= static_cast<std::uint64_t>(bits_of((eight > task.low) & (eight < task.high)))
+                   << n;
+    outside |= ~bits_of((eight >= static_cast<T>(0)) & (eight <= static_cast<T>(1)));
+  }
+  facts.inside[group] = inside;
+  facts.outside |= static_cast<std::uint64_t>((outside & 0xffU) != 0) << group;
+  facts.interfacial += __builtin_popcountll(interfacial);
+  facts.sum += ((sum[0] + sum[4]) + (sum[1] + sum[5])) + ((sum[2] + sum[6]) + (sum[3] + sum[7]));
+}
+
+template <class T>
+void classify_groups(const GroupTask<T>& task, GroupFacts& facts) {
+  facts.outside = 0;
+  for (std::int64_t group = 0; group < task.groups; ++group) {
+    const T* const values = task.values + group * kGroup;
+    if (values[0] == static_cast<T>(0) && is_all(values, static_cast<T>(0))) {
+      facts.inside[group] = 0;
+    } else if (values[0] == static_cast<T>(1) && is_all(values, static_cast<T>(1))) {
+      facts.inside[group] = ~std::uint64_t{0};
+      facts.sum += static_cast<double>(kGroup);
+    } else {
+      classify_mixed(task, values, group, facts);
+    }
+  }
+}
+
+}  // namespace
+
+const Kernels kKernels{fit_planes<float>,         fit_planes<double>,     fit_planes<std::uint8_t>,
+                       fit_planes<std::uint16_t>, solve_windows,          fit_plane_to_neighbours,
+                       classify_groups<float>,    classify_groups<double>};
+
+}  // namespace difmesh::detail::DIFMESH_INSTRUCTIONS

@@ -1,0 +1,170 @@
+#pragma once
+// Planes in the unit cell, for one double or eight (lanes.hpp).
+//
+// A cuboid cell is mapped to the unit cube about its centre, u in [-1/2, 1/2]^3; the plane becomes
+// m·u = a with m_i = n_i c_i. Formulas are homogeneous in (m, a), so no scaling is needed for them.
+// By symmetry only |m_i| and alpha = (sum - 2|a|) / 2, the plane's distance from the nearest
+// corner, enter. The pieces of the ordered form (Scardovelli & Zaleski 2000) are arranged so that
+// nothing is multiplied by the inverse of the smallest |m| but what makes a ratio in [0,1]: no
+// cancellation, whatever the direction.
+
+#include "lanes.hpp"
+
+namespace difmesh::detail::DIFMESH_INSTRUCTIONS {
+
+/// 1 / |value|, but no more than 1e300, so that 0 times it is 0.
+template <class R>
+[[gnu::always_inline]] inline R tame_inverse(const R& size) {
+  return 1.0 / larger(size, constant<R>(1e-300));
+}
+
+/// |m| sorted, small <= middle <= large, and the inverses.
+template <class R>
+struct Sorted {
+  R small, middle, large;
+  R inverse_small, inverse_middle, inverse_large;
+
+  [[nodiscard]] R sum() const { return small + middle + large; }
+};
+
+template <class R>
+[[gnu::always_inline]] inline Sorted<R> sorted(const R& m0, const R& m1, const R& m2) {
+  const R size0 = magnitude(m0);
+  const R size1 = magnitude(m1);
+  const R size2 = magnitude(m2);
+  const R low = smaller(size0, size1);
+  const R high = larger(size0, size1);
+  const R small = smaller(low, size2);
+  const R large = larger(high, size2);
+  const R middle = larger(low, smaller(high, size2));
+  return {small, middle, large, tame_inverse(small), tame_inverse(middle), tame_inverse(large)};
+}
+
+/// What alpha past the middle and the large component takes off, times 6 m.small.
+template <class R>
+struct Excess {
+  R middle;
+  R large;
+};
+
+template <class R>
+[[gnu::always_inline]] inline Excess<R> excess_past(const Sorted<R>& m, const R& alpha) {
+  const R zero = constant<R>(0.0);
+  return {larger(alpha - m.middle, zero), larger(alpha - m.large, zero)};
+}
+
+/// True where the plane cuts all four edges of the cube along the largest component.
+template <class R>
+[[gnu::always_inline]] inline Mask<R> is_column_cut(const Sorted<R>& m, const R& alpha) {
+  const R two = m.small + m.middle;
+  return (alpha >= two) & (two <= m.large);
+}
+
+/// Share of the unit cube cut off at a distance alpha, middle <= alpha <= sum/2, from its corner.
+template <class R>
+[[gnu::always_inline]] inline R upper_corner_fraction(const Sorted<R>& m, const R& alpha) {
+  const R quadratic = alpha * (alpha - m.small) * 0.5 + m.small * m.small * (1.0 / 6.0);
+  const Excess<R> past = excess_past(m, alpha);
+  const R cut = past.middle * m.inverse_small * past.middle * past.middle +
+                past.large * m.inverse_small * past.large * past.large;
+  const R general = (quadratic - cut * (1.0 / 6.0)) * m.inverse_middle * m.inverse_large;
+  const R column = (alpha - (m.small + m.middle) * 0.5) * m.inverse_large;
+  return select(is_column_cut(m, alpha), column, general);
+}
+
+/// The same for any alpha, 0 < alpha <= sum/2.
+template <class R>
+[[gnu::always_inline]] inline R corner_fraction(const Sorted<R>& m, const R& alpha) {
+  const R corner = (alpha * m.inverse_small) * (alpha * m.inverse_middle) *
+                   (alpha * m.inverse_large) * (1.0 / 6.0);
+  const R quadratic = alpha * (alpha - m.small) * 0.5 + m.small * m.small * (1.0 / 6.0);
+  const R wedge = quadratic * m.inverse_middle * m.inverse_large;
+  return select(alpha < m.small, corner,
+                select(alpha < m.middle, wedge, upper_corner_fraction(m, alpha)));
+}
+
+/// Derivative of upper_corner_fraction by alpha, where no column is cut.
+template <class R>
+[[gnu::always_inline]] inline R corner_area(const Sorted<R>& m, const R& alpha) {
+  const Excess<R> past = excess_past(m, alpha);
+  const R cut =
+      past.middle * m.inverse_small * past.middle + past.large * m.inverse_small * past.large;
+  return (alpha - m.small * 0.5 - cut * 0.5) * m.inverse_middle * m.inverse_large;
+}
+
+/// Share of the unit cube where m·u <= a. m = 0: all or nothing, by the sign of a.
+template <class R>
+[[gnu::always_inline]] inline R cube_share(const Sorted<R>& m, const R& a) {
+  const R zero = constant<R>(0.0);
+  const R one = constant<R>(1.0);
+  const R alpha = m.sum() * 0.5 - magnitude(a);
+  const R share = corner_fraction(m, alpha);
+  return select(alpha <= zero, select(a >= zero, one, zero), select(a > zero, 1.0 - share, share));
+}
+
+// The range where the cut is a polygon of four to six corners has no inverse free of cancellation.
+// upper_corner_fraction is smooth and increasing there, so a few of Newton's steps from the chord do,
+// within a bracket that closes where rounding would throw them about.
+template <class R>
+[[gnu::always_inline]] inline R solve_corner_distance(const Sorted<R>& m, const R& share, R low,
+                                                      R high, const Mask<R>& wanted) {
+  const R at_low = upper_corner_fraction(m, low);
+  const R at_high = upper_corner_fraction(m, high);
+  Mask<R> done = opposite(wanted) | (share >= at_high) | opposite(at_low < at_high);
+  const R lost = (high - low) * 1e-9;
+  R result = high;
+  R alpha = low + (high - low) * larger(share - at_low, constant<R>(0.0)) / (at_high - at_low);
+  for (int step = 0; step < 32 && any(opposite(done)); ++step) {
+    const R excess = upper_corner_fraction(m, alpha) - share;
+    const R next = clamped(alpha - excess / corner_area(m, alpha), low, high);
+    result = select(done, result, next);
+    // Steps shrink quadratically: after one this small the next would be lost in rounding.
+    done = done | (magnitude(next - alpha) <= lost);
+    const Mask<R> above = excess > constant<R>(0.0);
+    high = select(above, alpha, high);
+    low = select(above, low, alpha);
+    alpha = next;
+  }
+  return result;
+}
+
+/// alpha at which corner_fraction is share, in (0, 1/2].
+template <class R>
+[[gnu::always_inline]] inline R corner_distance(const Sorted<R>& m, const R& share) {
+  // Shares at which the plane passes the next corner of the cube.
+  const R at_small = m.small * m.inverse_middle * (m.small * m.inverse_large) * (1.0 / 6.0);
+  const R at_middle = at_small + (m.middle - m.small) * m.inverse_large * 0.5;
+  const R two = m.small + m.middle;
+  const Mask<R> in_corner = share < at_small;
+  const Mask<R> in_wedge = share < at_middle;
+  const Mask<R> in_column = (two <= m.large) & (share >= two * m.inverse_large * 0.5);
+  R result = share * m.large + two * 0.5;
+  const Mask<R> elsewhere = opposite(in_corner | in_wedge | in_column);
+  if (any(elsewhere)) {
+    result = select(
+        elsewhere,
+        solve_corner_distance(m, share, m.middle, smaller(two, m.sum() * 0.5), elsewhere), result);
+  }
+  if (any(in_wedge)) {
+    const R product = 2.0 * m.middle * m.large * (share - at_small);
+    const R root = square_root(m.small * m.small * 0.25 + product);
+    result = select(in_wedge, m.small * 0.5 + root, result);
+  }
+  if (any(in_corner)) {
+    result = select(in_corner, cube_root(6.0 * share * m.small * m.middle * m.large), result);
+  }
+  return result;
+}
+
+/// a at which cube_share(m, a) is the fraction, clamped to [0,1].
+template <class R>
+[[gnu::always_inline]] inline R offset_of_share(const Sorted<R>& m, const R& fraction) {
+  const R half = m.sum() * 0.5;
+  const Mask<R> mostly_full = fraction > constant<R>(0.5);
+  const R distance = corner_distance(m, select(mostly_full, 1.0 - fraction, fraction));
+  const R inner = select(mostly_full, half - distance, distance - half);
+  return select(fraction <= constant<R>(0.0), -half,
+                select(fraction >= constant<R>(1.0), half, inner));
+}
+
+}  // namespace difmesh::detail::DIFMESH_INSTRUCTIONS

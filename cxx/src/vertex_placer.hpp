@@ -1,0 +1,258 @@
+#pragma once
+// Where the vertices of single dual edges lie.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "dual_grid.hpp"
+#include "placement.hpp"
+#include "window.hpp"
+
+namespace difmesh::detail {
+
+/// Facts about the edges of some rows.
+struct EdgeCounts {
+  std::int64_t solved = 0;
+  std::int64_t steps = 0;
+  std::int64_t most_steps = 0;
+  std::int64_t non_monotone = 0;
+  bool on_end = false;
+
+  void add(const WindowRoot& root) {
+    ++solved;
+    steps += root.steps;
+    most_steps = std::max<std::int64_t>(most_steps, root.steps);
+    non_monotone += root.non_monotone ? 1 : 0;
+  }
+};
+
+/// A crossed dual edge and what is known at its two nodes.
+struct DualEdge {
+  Index3 lower;
+  Index3 upper;
+  std::size_t axis = 0;
+  bool upper_inside = false;
+};
+
+/// Places the vertices of one kind of options on one dual grid. Thread safety: const calls are safe.
+class VertexPlacer {
+ public:
+  VertexPlacer(const DualGrid& grid, const Options& options)
+      : grid_(grid), options_(options), with_planes_(options.placement == Placement::plic) {
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::int64_t last = grid.nodes().last()[axis];
+      for (std::int64_t local = 0; local <= last; ++local) {
+        const double node = grid.coordinate(axis, local);
+        after_[axis].push_back(std::nextafter(node, kFar));
+        before_[axis].push_back(std::nextafter(node, -kFar));
+      }
+    }
+  }
+
+  [[nodiscard]] const DualGrid& grid() const { return grid_; }
+  [[nodiscard]] const Options& options() const { return options_; }
+
+  [[nodiscard]] double cleared(double share) const {
+    return std::clamp(share, options_.clearance, 1.0 - options_.clearance);
+  }
+
+  // The vertex's share of the way from the lower node to the upper one.
+  double place(const DualEdge& edge, EdgeCounts& counts) const {
+    return cleared(with_planes_ ? place_at_side(edge, counts) : place_by_fractions(edge));
+  }
+
+  Vec3 position(const DualEdge& edge, double share) const {
+    const std::int64_t lower = edge.lower[edge.axis];
+    if (!is_half_edge(edge)) {
+      return position_between_cells(edge, share);
+    }
+    const double low = grid_.coordinate(edge.axis, lower);
+    const double high = grid_.coordinate(edge.axis, edge.upper[edge.axis]);
+    return at(edge, low + share * (high - low));
+  }
+
+  // The same for edges from a cell's centre to another's.
+  Vec3 position_between_cells(const DualEdge& edge, double share) const {
+    const BlockField& field = grid_.field();
+    const auto index =
+        static_cast<double>(edge.lower[edge.axis] - 1 + field.block.offset[edge.axis]);
+    return at(edge,
+              field.grid.origin[edge.axis] + (index + 0.5 + share) * field.grid.spacing[edge.axis]);
+  }
+
+  Vec3 normal(const DualEdge& edge, double share) const {
+    Vec3 sum{0.0, 0.0, 0.0};
+    add_normal(edge, edge.lower, 1.0 - share, sum);
+    add_normal(edge, edge.upper, share, sum);
+    const double length = std::hypot(sum[0], sum[1], sum[2]);
+    if (!(length > 0.0)) {
+      sum = {0.0, 0.0, 0.0};
+      sum[edge.axis] = edge.upper_inside ? -1.0 : 1.0;
+      return sum;
+    }
+    return {sum[0] / length, sum[1] / length, sum[2] / length};
+  }
+
+  // From the fractions of the two cells. \pre the placement is not by planes
+  [[nodiscard]] double share_of(const DualEdge& edge, double lower, double upper) const {
+    if (options_.placement == Placement::midpoint) {
+      return 0.5;
+    }
+    const double outer = edge.upper_inside ? lower : upper;
+    const double inner = edge.upper_inside ? upper : lower;
+    const double mu = options_.placement == Placement::linear ? linear_position(outer, inner)
+                                                              : manson_position(outer, inner);
+    return edge.upper_inside ? mu : 1.0 - mu;
+  }
+
+  // A plane as it is seen from the edge.
+  [[nodiscard]] EdgePlane oriented(const DualEdge& edge, const UnitPlane& plane) const {
+    EdgePlane result;
+    result.a = plane.a;
+    if (!plane.has_normal()) {
+      result.is_pure = std::abs(plane.a) >= 0.5;
+      // No gradient: the normal runs along the edge, towards the outer cell.
+      result.along = result.is_pure ? 0.0 : -1.0;
+      return result;
+    }
+    result.is_pure = false;
+    result.along = edge.upper_inside ? plane.m[edge.axis] : -plane.m[edge.axis];
+    result.across0 = plane.m[(edge.axis + 1) % 3];
+    result.across1 = plane.m[(edge.axis + 2) % 3];
+    return result;
+  }
+
+  [[nodiscard]] Algorithm1Start algorithm1_start(const DualEdge& edge, const UnitPlane& lower,
+                                                 const UnitPlane& upper) const {
+    const UnitPlane& outer = edge.upper_inside ? lower : upper;
+    const UnitPlane& inner = edge.upper_inside ? upper : lower;
+    return {window_guess(oriented(edge, outer), oriented(edge, inner)),
+            physical_weight(edge, outer), physical_weight(edge, inner)};
+  }
+
+ private:
+  // Between a cell centre and a domain face.
+  [[nodiscard]] bool is_half_edge(const DualEdge& edge) const {
+    const BlockField& field = grid_.field();
+    const std::int64_t index = edge.lower[edge.axis] - 1 + field.block.offset[edge.axis];
+    const auto ends_on_face = [](Side side) { return side == Side::open || side == Side::mirror; };
+    return (index < 0 && ends_on_face(field.sides[2 * edge.axis])) ||
+           (index == field.grid.dims[edge.axis] - 1 &&
+            ends_on_face(field.sides[2 * edge.axis + 1]));
+  }
+
+  [[nodiscard]] double place_by_fractions(const DualEdge& edge) const {
+    return share_of(edge, fraction_at(edge.lower), fraction_at(edge.upper));
+  }
+
+  [[nodiscard]] double fraction_at(const Index3& node) const {
+    return grid_.cell_fraction(node, grid_.origin(node));
+  }
+
+  [[nodiscard]] double place_by_window(const DualEdge& edge, const UnitPlane& lower,
+                                       const UnitPlane& upper, EdgeCounts& counts) const {
+    const EdgePlane outer = oriented(edge, edge.upper_inside ? lower : upper);
+    const EdgePlane inner = oriented(edge, edge.upper_inside ? upper : lower);
+    const WindowRoot root =
+        solve_window(outer, inner, [&] { return algorithm1_start(edge, lower, upper); });
+    counts.add(root);
+    return edge.upper_inside ? root.mu : 1.0 - root.mu;
+  }
+
+  // Manson's position from the fractions that the planes stand for.
+  [[nodiscard]] static double window_guess(const EdgePlane& outer, const EdgePlane& inner) {
+    const window::Plane outer_plane = window::prepared(outer);
+    const window::Plane inner_plane = window::prepared(inner);
+    return manson_position(baseline::filling(outer_plane, inner_plane, 0.0).excess + 0.5,
+                           baseline::filling(outer_plane, inner_plane, 1.0).excess + 0.5);
+  }
+
+  [[nodiscard]] double physical_weight(const DualEdge& edge, const UnitPlane& plane) const {
+    const Vec3& spacing = grid_.field().grid.spacing;
+    if (!plane.has_normal()) {
+      return std::abs(plane.a) >= 0.5 ? 0.0 : spacing[edge.axis];
+    }
+    return 1.0 /
+           std::hypot(plane.m[0] / spacing[0], plane.m[1] / spacing[1], plane.m[2] / spacing[2]);
+  }
+
+  // Edges that touch a side of the domain.
+  [[nodiscard]] double place_at_side(const DualEdge& edge, EdgeCounts& counts) const {
+    const NodeOrigin lower = grid_.origin(edge.lower);
+    const NodeOrigin upper = grid_.origin(edge.upper);
+    if (!lower.constant && !upper.constant && lower.cell == upper.cell) {
+      return place_on_half_edge(edge, lower, upper);
+    }
+    const bool crossed_cells = !lower.constant && !upper.constant &&
+                               grid_.nodes().test(lower.cell) != grid_.nodes().test(upper.cell);
+    return place_by_window(edge, node_plane(edge.lower, lower, crossed_cells),
+                           node_plane(edge.upper, upper, crossed_cells), counts);
+  }
+
+  // From a cell's centre to its domain face there is one plane; it meets the edge.
+  [[nodiscard]] double place_on_half_edge(const DualEdge& edge, const NodeOrigin& lower,
+                                          const NodeOrigin& upper) const {
+    const bool face_above = upper.face[edge.axis] > 0;
+    std::array<int, 3> face = face_above ? lower.face : upper.face;
+    const UnitPlane plane = trace(grid_.planes().at(lower.cell), face);
+    const double from_centre = 2.0 * plane.a / plane.m[edge.axis];
+    return face_above ? from_centre : 1.0 + from_centre;
+  }
+
+  // The plane that stands for a node in a window: on open faces the trace of its cell's plane,
+  // which makes the window one of the face. Which planes serve depends on nothing but the two
+  // cells, so blocks that share the edge agree.
+  [[nodiscard]] UnitPlane node_plane(const Index3& node, const NodeOrigin& origin,
+                                     bool crossed_cells) const {
+    const UnitPlane plane = grid_.cell_plane(node, origin);
+    if (!origin.on_face() || origin.constant || !plane.has_normal()) {
+      return plane;
+    }
+    const bool inside = grid_.nodes().test(node);
+    const UnitPlane traced = trace(plane, origin.face);
+    const bool serves =
+        crossed_cells || grid_.field().is_interfacial(grid_.cell_fraction(node, origin));
+    if (serves && (traced.a >= 0.0) == inside) {
+      return traced.has_normal() ? traced : UnitPlane::pure(inside);
+    }
+    return UnitPlane::pure(inside);
+  }
+
+  void add_normal(const DualEdge& edge, const Index3& node, double share, Vec3& sum) const {
+    const UnitPlane plane = grid_.cell_plane(node, grid_.origin(node));
+    const double weight = share * physical_weight(edge, plane);
+    const Vec3& spacing = grid_.field().grid.spacing;
+    if (!plane.has_normal()) {
+      sum[edge.axis] += (edge.upper_inside ? -weight : weight) / spacing[edge.axis];
+      return;
+    }
+    for (std::size_t t = 0; t < 3; ++t) {
+      sum[t] += weight * plane.m[t] / spacing[t];
+    }
+  }
+
+  // Rounding must not carry a vertex onto a node.
+  [[nodiscard]] Vec3 at(const DualEdge& edge, double along) const {
+    Vec3 position;
+    for (std::size_t t = 0; t < 3; ++t) {
+      position[t] = grid_.coordinate(t, edge.lower[t]);
+    }
+    const auto lower = static_cast<std::size_t>(edge.lower[edge.axis]);
+    position[edge.axis] =
+        std::clamp(along, after_[edge.axis][lower], before_[edge.axis][lower + 1]);
+    return position;
+  }
+
+  const DualGrid& grid_;
+  const Options& options_;
+  bool with_planes_;
+  std::array<std::vector<double>, 3> after_;   // the next number above each node's coordinate
+  std::array<std::vector<double>, 3> before_;  // and below
+};
+
+}  // namespace difmesh::detail

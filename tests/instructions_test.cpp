@@ -1,0 +1,211 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "difmesh/normals.hpp"
+#include "difmesh/reconstruct.hpp"
+#include "kernels.hpp"
+#include "support/fields.hpp"
+
+using namespace difmesh;
+using difmesh::detail::Instructions;
+using difmesh::test::OwnedField;
+using difmesh::test::same_bits;
+
+namespace {
+
+// The instruction sets that this machine can be made to use, the baseline first.
+std::vector<Instructions> instruction_sets() {
+  std::vector<Instructions> sets;
+  for (const Instructions set :
+       {Instructions::baseline, Instructions::avx2, Instructions::avx512}) {
+    if (detail::has_instructions(set)) {
+      sets.push_back(set);
+    }
+  }
+  return sets;
+}
+
+// Goes back to the best one in the end.
+class InstructionsGuard {
+ public:
+  InstructionsGuard() = default;
+  InstructionsGuard(const InstructionsGuard&) = delete;
+  InstructionsGuard& operator=(const InstructionsGuard&) = delete;
+  ~InstructionsGuard() { detail::use_instructions(instruction_sets().back()); }
+};
+
+template <class T>
+std::vector<T> converted(const OwnedField& field) {
+  std::vector<T> values;
+  for (const double value : field.values) {
+    if constexpr (std::is_integral_v<T>) {
+      values.push_back(static_cast<T>(value * std::numeric_limits<T>::max() + 0.5));
+    } else {
+      values.push_back(static_cast<T>(value));
+    }
+  }
+  return values;
+}
+
+OwnedField blob_with_wisps(const Index3& dims) {
+  OwnedField field = test::blob(dims);
+  std::size_t n = 0;
+  for (double& value : field.values) {
+    const double wisp = static_cast<double>(n++ % 7) * 3e-8;
+    value += n % 3 == 0 ? wisp : -wisp;
+  }
+  return field;
+}
+
+// Waves of planes that fill the domain and leave it through all sides.
+OwnedField waves(const Index3& dims) {
+  OwnedField field(dims);
+  for (std::int64_t k = 0; k < dims[2]; ++k) {
+    for (std::int64_t j = 0; j < dims[1]; ++j) {
+      for (std::int64_t i = 0; i < dims[0]; ++i) {
+        const auto x = static_cast<double>(i);
+        const auto y = static_cast<double>(j);
+        const auto z = static_cast<double>(k);
+        const double g = std::sin(0.31 * x) * std::cos(0.29 * y) +
+                         std::sin(0.3 * y) * std::cos(0.33 * z) +
+                         std::sin(0.28 * z) * std::cos(0.3 * x);
+        field.at(i, j, k) = std::clamp(0.5 - 2.3 * g, 0.0, 1.0);
+      }
+    }
+  }
+  return field;
+}
+
+struct Case {
+  std::string name;
+  OwnedField field;
+};
+
+std::vector<Case> cases() {
+  // Rows of more than one word of cells, and of fewer; noise that no stencil agrees with.
+  return {{"blob", blob_with_wisps({70, 41, 37})},
+          {"waves", waves({131, 24, 25})},
+          {"noise", test::white_noise({33, 19, 12}, 5)},
+          {"noise of halves", test::half_noise({66, 9, 8}, 6)},
+          {"thin", test::white_noise({40, 1, 3}, 7)}};
+}
+
+bool same_facts(const Report& a, const Report& b) {
+  return a.interfacial_cells == b.interfacial_cells && a.clamped_cells == b.clamped_cells &&
+         a.largest_overshoot == b.largest_overshoot && a.fraction_volume == b.fraction_volume &&
+         a.planes == b.planes && a.height_function_cells == b.height_function_cells &&
+         a.gradient_free_cells == b.gradient_free_cells && a.solved_edges == b.solved_edges &&
+         a.newton_steps_mean == b.newton_steps_mean && a.newton_steps_max == b.newton_steps_max &&
+         a.non_monotone_edges == b.non_monotone_edges && a.closed == b.closed &&
+         a.enclosed_volume == b.enclosed_volume;
+}
+
+template <class T>
+void check_all_sets(const Case& each, const Options& options) {
+  CAPTURE(each.name);
+  CAPTURE(sizeof(T));
+  const Grid grid{each.field.dims, {0.3, -1.0, 2.0}, {1.0, 0.7, 1.9}};
+  const std::vector<T> values = converted<T>(each.field);
+  const InstructionsGuard guard;
+  std::vector<Reconstruction> results;
+  for (const Instructions set : instruction_sets()) {
+    for (const int threads : {1, 3}) {
+      detail::use_instructions(set);
+      Options with = options;
+      with.threads = threads;
+      results.push_back(reconstruct(FieldView::x_fastest(values.data(), grid.dims), grid, with));
+      CAPTURE(static_cast<int>(set));
+      CAPTURE(threads);
+      CHECK(same_bits(results.front().mesh, results.back().mesh));
+      CHECK(same_facts(results.front().report, results.back().report));
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("instruction sets: the same bits from each, on any number of threads") {
+  MESSAGE("instruction sets: " << instruction_sets().size());
+  for (const Case& each : cases()) {
+    for (const Placement placement : {Placement::linear, Placement::manson, Placement::plic}) {
+      for (const Side side : {Side::open, Side::mirror, Side::periodic, Side::empty, Side::full}) {
+        Options options;
+        options.placement = placement;
+        options.sides.fill(side);
+        options.vertex_normals = true;
+        options.edge_ids = true;
+        check_all_sets<double>(each, options);
+        check_all_sets<float>(each, options);
+      }
+    }
+  }
+}
+
+TEST_CASE("instruction sets: the same bits for integers, and for all kinds of normals") {
+  for (const Case& each : cases()) {
+    for (const Normals normals :
+         {Normals::youngs, Normals::myc, Normals::height_function, Normals::elvira}) {
+      Options options;
+      options.normals = normals;
+      options.vertex_normals = true;
+      check_all_sets<float>(each, options);
+      if (each.name != "blob") {  // wisps below 0 are none of an integer's values
+        check_all_sets<std::uint8_t>(each, options);
+        check_all_sets<std::uint16_t>(each, options);
+      }
+    }
+  }
+}
+
+// Cells whose neighbours along x do not lie next to each other in memory are taken one by one, by the general code.
+TEST_CASE("kernels: the same bits as cell by cell") {
+  for (const Case& each : cases()) {
+    CAPTURE(each.name);
+    const Index3& dims = each.field.dims;
+    const Grid grid{dims, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}};
+    std::vector<double> apart(2 * each.field.values.size(),
+                              std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t n = 0; n < each.field.values.size(); ++n) {
+      apart[2 * n] = each.field.values[n];
+    }
+    FieldView view = FieldView::x_fastest(apart.data(), dims);
+    view.strides = {2, 2 * dims[0], 2 * dims[0] * dims[1]};
+    for (const Normals normals : {Normals::youngs, Normals::myc, Normals::height_function}) {
+      Options options;
+      options.normals = normals;
+      options.vertex_normals = true;
+      const Reconstruction together = reconstruct(each.field.view(), grid, options);
+      const Reconstruction alone = reconstruct(view, grid, options);
+      CHECK(same_bits(together.mesh, alone.mesh));
+      CHECK(together.report.height_function_cells == alone.report.height_function_cells);
+      CHECK(together.report.gradient_free_cells == alone.report.gradient_free_cells);
+    }
+  }
+}
+
+TEST_CASE("instruction sets: cell_planes gives the same bits from each") {
+  const OwnedField field = waves({40, 30, 20});
+  const Grid grid{field.dims, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}};
+  const Array<Index3> cells = interfacial_cells(field.view(), grid);
+  REQUIRE(cells.size() > 1000);
+  const InstructionsGuard guard;
+  std::vector<std::vector<CellPlane>> results;
+  for (const Instructions set : instruction_sets()) {
+    detail::use_instructions(set);
+    results.emplace_back(cells.size());
+    cell_planes(field.view(), grid, cells, {}, results.back());
+    for (std::size_t n = 0; n < cells.size(); ++n) {
+      const CellPlane& first = results.front()[n];
+      const CellPlane& here = results.back()[n];
+      REQUIRE(first.plane.normal == here.plane.normal);
+      REQUIRE(first.plane.offset == here.plane.offset);
+      REQUIRE(first.source == here.source);
+    }
+  }
+}
