@@ -58,6 +58,7 @@ class Curvature(unittest.TestCase):
         with self.assertRaises(difmesh.CancelledError):
             difmesh.curvature(mesh, progress=lambda share: False)
 
+    @unittest.skipUnless(difmesh.has("files"), "the library was built without files")
     def test_goes_into_files(self):
         mesh = ball()
         mean = difmesh.curvature(mesh).mean
