@@ -28,7 +28,7 @@ enum class Normals : std::uint8_t {
   /// by differences of columns of 5 and myc's (after Pilliod & Puckett, J. Comput. Phys. 199 (2004)
   /// 465). Exact for planes two cells away from open sides. Some 7 µs per cell.
   elvira,
-  lvira,  ///< the same among all planes near myc's, by Gauss-Newton steps; exact for planes. 9 µs
+  lvira,  ///< the same among all planes near myc's, by Gauss-Newton steps; exact for planes. 1 µs
 };
 
 /// What lies beyond a side of the domain.
