@@ -62,10 +62,26 @@ template <class V, class T>
   return result;
 }
 
+template <class D, class V>
+[[gnu::always_inline]] inline D converted(const V& values) {
+  return __builtin_convertvector(values, D);
+}
+#if defined(__AVX512F__)
+// GCC does these in halves.
+template <>
+[[gnu::always_inline]] inline Doubles8 converted(const Floats8& values) {
+  return (Doubles8)_mm512_cvtps_pd((__m256)values);
+}
+template <>
+[[gnu::always_inline]] inline Doubles8 converted(const Ints8& values) {
+  return (Doubles8)_mm512_cvtepi32_pd((__m256i)values);
+}
+#endif
+
 // As fraction_of() in block_field.hpp, for what is a number.
 template <class T, class D, class V>
 [[gnu::always_inline]] inline D fractions(const V& values) {
-  const D wide = __builtin_convertvector(values, D);
+  const D wide = converted<D>(values);
   if constexpr (kIsFloating<T>) {
     const D zero{};
     const D one = zero + 1.0;

@@ -19,12 +19,16 @@ struct PlaneTask {
   T most_empty;  ///< the greatest that counts as empty
 };
 
+/// Of CellBatch::reach: what follows the cell along x is in memory so far that columns across x can be read from the
+/// one before it on, eight abreast.
+inline constexpr unsigned kEightAbreast = 8;
+
 /// Cells, at least one, whose 3x3x3 neighbourhoods are in memory, and what follows these along x: rows are read four
 /// abreast.
 template <class T>
 struct CellBatch {
   const T* centre[kBatch];
-  std::uint8_t reach[kBatch];  ///< bit per axis: so are the columns of heights along it
+  std::uint8_t reach[kBatch];  ///< bit per axis: so are the columns of heights along it; kEightAbreast
   int count;
 };
 

@@ -2,6 +2,7 @@
 // wanted: each of these files includes it once. Nothing here may call inline functions of other headers than
 // those of the same namespace; see lanes.hpp.
 
+#include "columns_abreast.hpp"
 #include "height_columns.hpp"
 #include "kernels.hpp"
 #include "normal_math.hpp"
@@ -35,27 +36,56 @@ template <class T>
     material_low[axis] = bits_of(normal.v[axis] > broadcast(0.0));
   }
   const unsigned ties = (along[0] & along[1]) | (along[1] & along[2]) | (along[2] & along[0]);
-  for (int n = 0; n < cells.count; ++n) {
+  unsigned left = ((1U << cells.count) - 1U) & ~planes.gradient_free;
+  planes.undone = ties & left;
+  left &= ~ties;
+  const auto take = [&](int n, int axis, bool low, const Heights& heights)
+                        __attribute__((always_inline)) {
+                          planes.from_heights |= 1U << n;
+                          lanes.axis[n] = axis;
+                          lanes.sense[n] = low ? 1.0 : -1.0;
+                          for (int t = 0; t < 2; ++t) {
+                            lanes.low[t][n] = heights.low[t];
+                            lanes.high[t][n] = heights.high[t];
+                          }
+                        };
+  while (left != 0) {
+    const int n = __builtin_ctz(left);
     const unsigned bit = 1U << n;
-    if ((planes.gradient_free & bit) != 0) {
-      continue;
-    }
     const int axis = (along[0] & bit) != 0 ? 0 : ((along[1] & bit) != 0 ? 1 : 2);
-    if ((ties & bit) != 0 || (cells.reach[n] >> axis & 1) == 0) {
+    if ((cells.reach[n] >> axis & 1) == 0) {
       planes.undone |= bit;
+      left &= ~bit;
       continue;
     }
     const bool low = (material_low[axis] & bit) != 0;
-    Heights heights;
-    if (!find_heights(task, cells.centre[n], axis, low, heights)) {
+    const T* const centre = cells.centre[n];
+    unsigned mates = bit;
+    if (axis != 0 && (cells.reach[n] & kEightAbreast) != 0) {
+      const unsigned alike = left & along[axis] & (low ? material_low[axis] : ~material_low[axis]);
+      for (int m = n + 1; m < cells.count; ++m) {
+        const std::int64_t place = cells.centre[m] - centre;
+        const bool is_mate = place >= 0 && place < kBatch - 2 && (cells.reach[m] >> axis & 1) != 0;
+        mates |= (is_mate ? alike : 0U) & 1U << m;
+      }
+    }
+    left &= ~mates;
+    if (mates == bit) {
+      Heights heights;
+      if (find_heights(task, centre, axis, low, heights)) {
+        take(n, axis, low, heights);
+      }
       continue;
     }
-    planes.from_heights |= bit;
-    lanes.axis[n] = axis;
-    lanes.sense[n] = low ? 1.0 : -1.0;
-    for (int t = 0; t < 2; ++t) {
-      lanes.low[t][n] = heights.low[t];
-      lanes.high[t][n] = heights.high[t];
+    HeightBlock block;
+    find_height_block(task, centre - 1, low ? task.strides[axis] : -task.strides[axis],
+                      task.strides[3 - axis], block);
+    for (; mates != 0; mates &= mates - 1) {
+      const int m = __builtin_ctz(mates);
+      const int place = static_cast<int>(cells.centre[m] - centre) + 1;
+      if (block.is_consistent(place)) {
+        take(m, axis, low, block.around(place));
+      }
     }
   }
 }

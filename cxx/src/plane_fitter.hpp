@@ -108,7 +108,8 @@ class PlaneFitter {
           fit_alone({i, before[1], before[2]}, number);
           continue;
         }
-        const unsigned reach = (from_side >= kReach ? 1U : 0U) | across;
+        const unsigned reach = (from_side >= kReach ? 1U : 0U) | across |
+                               (i + kBatch - 2 < field.axes[0].high ? kEightAbreast : 0U);
         const T* const centre = row + (i - field.axes[0].low);
         if (last_line == nullptr || centre - last_line >= kLine) {
           last_line = centre;
