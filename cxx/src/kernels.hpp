@@ -41,13 +41,14 @@ struct PlaneBatch {
   unsigned undone;  ///< m and a say nothing: the cell needs the general code
 };
 
-/// Planes as EdgePlane of window.hpp has them; the lanes past `count` hold anything but signalling NaN.
+/// Edges and the planes of the cells at their ends; the places past `count` must hold some edge too.
 struct WindowBatch {
-  double outer[4][kBatch];  ///< along, across0, across1, a
-  double inner[4][kBatch];
-  unsigned pure;  ///< bits of the edges with a pure end
+  const void* lower[kBatch];  ///< of UnitPlane: m, then a
+  const void* upper[kBatch];
+  double axis[kBatch];   ///< 0, 1 or 2
+  double sense[kBatch];  ///< 1 where the upper end is inside, else -1
   int count;
-  double mu[kBatch];
+  double share[kBatch];  ///< of the way from the lower end to the upper one
   double steps[kBatch];
   unsigned undone;  ///< edges where the share filled may not be monotone: no result
 };

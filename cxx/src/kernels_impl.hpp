@@ -199,17 +199,62 @@ void fit_planes(const PlaneTask<T>& task, const CellBatch<T>& cells, PlaneBatch&
   store(offset_of_share(sorted(normal.v[0], normal.v[1], normal.v[2]), c[13]), planes.a);
 }
 
+// Eight planes as EdgePlane of window.hpp has them.
+struct EdgePlanes {
+  Lanes along, across0, across1, a;
+  LaneMask is_pure;
+};
+
+[[gnu::always_inline]] inline EdgePlanes edge_planes(const void* const (&plane)[kBatch],
+                                                     const Lanes& axis, const Lanes& sense) {
+  alignas(64) double columns[4][kBatch];
+  for (int n = 0; n < kBatch; ++n) {
+    double values[4];
+    __builtin_memcpy(values, plane[n], sizeof values);
+    for (int t = 0; t < 4; ++t) {
+      columns[t][n] = values[t];
+    }
+  }
+  const Lanes x = load(columns[0]);
+  const Lanes y = load(columns[1]);
+  const Lanes z = load(columns[2]);
+  const LaneMask is_x = axis == 0.0;
+  const LaneMask is_y = axis == 1.0;
+  const Lanes zero = broadcast(0.0);
+  EdgePlanes planes;
+  planes.a = load(columns[3]);
+  planes.across0 = select(is_x, y, select(is_y, z, x));
+  planes.across1 = select(is_x, z, select(is_y, x, y));
+  const Lanes along = select(is_x, x, select(is_y, y, z)) * sense;
+  const LaneMask has_none = (x == zero) & (y == zero) & (z == zero);
+  planes.is_pure = has_none & (magnitude(planes.a) >= broadcast(0.5));
+  // No gradient: the normal runs along the edge, towards the outer cell.
+  planes.along = select(planes.is_pure, zero, select(has_none, broadcast(-1.0), along));
+  return planes;
+}
+
 void solve_windows(WindowBatch& batch) {
-  const auto plane = [](const double(&of)[4][kBatch]) {
-    return window_plane(load(of[0]), load(of[1]), load(of[2]), load(of[3]));
+  const void* ends[2][kBatch];
+  for (int n = 0; n < kBatch; ++n) {
+    const bool upper_inside = batch.sense[n] > 0.0;
+    ends[0][n] = upper_inside ? batch.lower[n] : batch.upper[n];
+    ends[1][n] = upper_inside ? batch.upper[n] : batch.lower[n];
+  }
+  const Lanes axis = load(batch.axis);
+  const Lanes sense = load(batch.sense);
+  const EdgePlanes outside = edge_planes(ends[0], axis, sense);
+  const EdgePlanes inside = edge_planes(ends[1], axis, sense);
+  const auto prepared = [](const EdgePlanes& of) __attribute__((always_inline)) {
+    return window_plane(of.along, of.across0, of.across1, of.a);
   };
-  const WindowPlane<Lanes> outer = plane(batch.outer);
-  const WindowPlane<Lanes> inner = plane(batch.inner);
+  const WindowPlane<Lanes> outer = prepared(outside);
+  const WindowPlane<Lanes> inner = prepared(inside);
   const unsigned there = batch.count == kBatch ? 0xffU : (1U << batch.count) - 1U;
-  batch.undone = ~(bits_of(surely_monotone(outer, inner)) | batch.pure) & there;
+  batch.undone =
+      ~bits_of(surely_monotone(outer, inner) | outside.is_pure | inside.is_pure) & there;
   const NewtonRoot<Lanes> root =
       newton(outer, inner, broadcast(0.0), broadcast(1.0), plane_crossing(outer, inner));
-  store(root.mu, batch.mu);
+  store(select(sense > broadcast(0.0), root.mu, 1.0 - root.mu), batch.share);
   store(root.steps, batch.steps);
 }
 

@@ -15,7 +15,7 @@ namespace difmesh::detail {
 
 /// The plane m·u = a of a cell in the unit cube about its centre; the material is m·u <= a. A cell
 /// that is full or empty has m = 0 and a = 1 or -1. One without a gradient has m = 0 and a = γ -
-/// 1/2: its normal is taken along whichever edge is asked about.
+/// 1/2: its normal is taken along whichever edge is asked about. Four doubles: kernels read them so.
 struct UnitPlane {
   Vec3 m{0.0, 0.0, 0.0};
   double a = 0.0;
@@ -25,6 +25,8 @@ struct UnitPlane {
     return {{0.0, 0.0, 0.0}, inside ? 1.0 : -1.0};
   }
 };
+
+static_assert(sizeof(UnitPlane) == 4 * sizeof(double));
 
 class PlaneTable {
  public:

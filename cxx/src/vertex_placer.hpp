@@ -22,10 +22,13 @@ struct EdgeCounts {
   std::int64_t non_monotone = 0;
   bool on_end = false;
 
-  void add(const WindowRoot& root) {
+  void add(int steps_of_one) {
     ++solved;
-    steps += root.steps;
-    most_steps = std::max<std::int64_t>(most_steps, root.steps);
+    steps += steps_of_one;
+    most_steps = std::max<std::int64_t>(most_steps, steps_of_one);
+  }
+  void add(const WindowRoot& root) {
+    add(root.steps);
     non_monotone += root.non_monotone ? 1 : 0;
   }
 };
@@ -66,23 +69,22 @@ class VertexPlacer {
     return cleared(with_planes_ ? place_at_side(edge, counts) : place_by_fractions(edge));
   }
 
-  Vec3 position(const DualEdge& edge, double share) const {
-    const std::int64_t lower = edge.lower[edge.axis];
+  [[nodiscard]] Vec3 position(const DualEdge& edge, double share) const {
     if (!is_half_edge(edge)) {
-      return position_between_cells(edge, share);
+      return position_between_cells(edge.lower, edge.axis, share);
     }
-    const double low = grid_.coordinate(edge.axis, lower);
+    const double low = grid_.coordinate(edge.axis, edge.lower[edge.axis]);
     const double high = grid_.coordinate(edge.axis, edge.upper[edge.axis]);
-    return at(edge, low + share * (high - low));
+    return at(edge.lower, edge.axis, low + share * (high - low));
   }
 
   // The same for edges from a cell's centre to another's.
-  Vec3 position_between_cells(const DualEdge& edge, double share) const {
+  [[nodiscard]] Vec3 position_between_cells(const Index3& lower, std::size_t axis,
+                                            double share) const {
     const BlockField& field = grid_.field();
-    const auto index =
-        static_cast<double>(edge.lower[edge.axis] - 1 + field.block.offset[edge.axis]);
-    return at(edge,
-              field.grid.origin[edge.axis] + (index + 0.5 + share) * field.grid.spacing[edge.axis]);
+    const auto index = static_cast<double>(lower[axis] - 1 + field.block.offset[axis]);
+    return at(lower, axis,
+              field.grid.origin[axis] + (index + 0.5 + share) * field.grid.spacing[axis]);
   }
 
   Vec3 normal(const DualEdge& edge, double share) const {
@@ -99,15 +101,15 @@ class VertexPlacer {
   }
 
   // From the fractions of the two cells. \pre the placement is not by planes
-  [[nodiscard]] double share_of(const DualEdge& edge, double lower, double upper) const {
+  [[nodiscard]] double share_of(bool upper_inside, double lower, double upper) const {
     if (options_.placement == Placement::midpoint) {
       return 0.5;
     }
-    const double outer = edge.upper_inside ? lower : upper;
-    const double inner = edge.upper_inside ? upper : lower;
+    const double outer = upper_inside ? lower : upper;
+    const double inner = upper_inside ? upper : lower;
     const double mu = options_.placement == Placement::linear ? linear_position(outer, inner)
                                                               : manson_position(outer, inner);
-    return edge.upper_inside ? mu : 1.0 - mu;
+    return upper_inside ? mu : 1.0 - mu;
   }
 
   // A plane as it is seen from the edge.
@@ -147,7 +149,7 @@ class VertexPlacer {
   }
 
   [[nodiscard]] double place_by_fractions(const DualEdge& edge) const {
-    return share_of(edge, fraction_at(edge.lower), fraction_at(edge.upper));
+    return share_of(edge.upper_inside, fraction_at(edge.lower), fraction_at(edge.upper));
   }
 
   [[nodiscard]] double fraction_at(const Index3& node) const {
@@ -237,14 +239,13 @@ class VertexPlacer {
   }
 
   // Rounding must not carry a vertex onto a node.
-  [[nodiscard]] Vec3 at(const DualEdge& edge, double along) const {
+  [[nodiscard]] Vec3 at(const Index3& lower, std::size_t axis, double along) const {
     Vec3 position;
     for (std::size_t t = 0; t < 3; ++t) {
-      position[t] = grid_.coordinate(t, edge.lower[t]);
+      position[t] = grid_.coordinate(t, lower[t]);
     }
-    const auto lower = static_cast<std::size_t>(edge.lower[edge.axis]);
-    position[edge.axis] =
-        std::clamp(along, after_[edge.axis][lower], before_[edge.axis][lower + 1]);
+    const auto place = static_cast<std::size_t>(lower[axis]);
+    position[axis] = std::clamp(along, after_[axis][place], before_[axis][place + 1]);
     return position;
   }
 

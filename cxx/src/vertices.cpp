@@ -54,6 +54,9 @@ class RowPlacer {
     const T* const row = own ? row_of_cells(j, k) : nullptr;
     const bool ends_y = is_end(1, j);
     const bool ends_z = is_end(2, k);
+    // Nodes whose edges all lead to cells of the block from such, none of them where the mesh may end.
+    const bool is_plain_row = own_along[1] && own_along[2] && !ends_y && !ends_z;
+    const std::int64_t plain_from = std::max<std::int64_t>(1, nodes.first()[0] + 1);
     auto vertex = static_cast<std::size_t>(first_vertex);
     for (std::int64_t w = 0; w < nodes.words(); ++w) {
       if (with_planes_) {
@@ -61,11 +64,22 @@ class RowPlacer {
           each.enter_word(w);
         }
       }
-      for_each_edge(edges.word(w), [&](int bit, std::size_t axis) {
+      const EdgeWord word = edges.word(w);
+      if (word.any() == 0) {
+        continue;
+      }
+      const std::uint64_t inside = nodes.row(j, k)[w];
+      if (is_plain_row && (word.any() & ~NodeBits::range(w, plain_from, dims[0] - 1)) == 0) {
+        for_each_edge(word, [&](int bit, std::size_t axis) {
+          place_own({64 * w + bit, j, k}, axis, (inside >> bit & 1) == 0, bit, row, vertex++);
+        });
+        continue;
+      }
+      for_each_edge(word, [&](int bit, std::size_t axis) {
         const Index3 node{64 * w + bit, j, k};
         counts_.on_end = counts_.on_end || (axis != 0 && is_end(0, node[0])) ||
                          (axis != 1 && ends_y) || (axis != 2 && ends_z);
-        const bool upper_inside = !nodes.test(node);
+        const bool upper_inside = (inside >> bit & 1) == 0;
         if (own_along[axis] && node[0] >= 1 && node[0] + (axis == 0 ? 1 : 0) <= dims[0]) {
           place_own(node, axis, upper_inside, bit, row, vertex++);
           return;
@@ -73,7 +87,7 @@ class RowPlacer {
         DualEdge edge{node, node, axis, upper_inside};
         ++edge.upper[axis];
         const double share = placer_.place(edge, counts_);
-        writer_.write(vertex++, edge, share, placer_.position(edge, share));
+        writer_.write(vertex++, node, axis, upper_inside, share, placer_.position(edge, share));
       });
     }
   }
@@ -134,11 +148,10 @@ class RowPlacer {
     }
     const Index3& strides = grid_.field().view.strides;
     const T* const cell = row + (node[0] - 1) * strides[0];
-    DualEdge edge{node, node, axis, upper_inside};
-    ++edge.upper[axis];
     const double share = placer_.cleared(
-        placer_.share_of(edge, fraction_of(*cell), fraction_of(cell[strides[axis]])));
-    writer_.write(vertex, edge, share, placer_.position_between_cells(edge, share));
+        placer_.share_of(upper_inside, fraction_of(*cell), fraction_of(cell[strides[axis]])));
+    writer_.write(vertex, node, axis, upper_inside, share,
+                  placer_.position_between_cells(node, axis, share));
   }
 
   const VertexPlacer& placer_;
