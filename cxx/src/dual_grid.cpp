@@ -63,8 +63,7 @@ void DualGrid::set_planes(PlaneTable planes, bool extend) {
   const Index3& last = nodes_.last();
   for (std::int64_t k = 1; k <= last[2]; ++k) {
     for (std::int64_t j = 1; j <= last[1]; ++j) {
-      const std::int64_t row = nodes_.row_index(j, k);
-      if (planes_.row_start(row) == planes_.row_start(row + 1)) {
+      if (planes_.is_empty(nodes_.row_index(j, k))) {
         continue;
       }
       const bool whole_row = j == 1 || j == dims[1] || k == 1 || k == dims[2];

@@ -22,7 +22,7 @@ class DualGrid {
  public:
   DualGrid(const BlockField& field, NodeBits nodes);
 
-  /// Takes the planes; with `extend`, nodes on open domain faces are inside where the plane of
+  /// Takes the outermost cells' planes; with `extend`, nodes on open domain faces are inside where the plane of
   /// their cell says so, which lets the surface run on to the face.
   void set_planes(PlaneTable planes, bool extend);
 
@@ -44,7 +44,7 @@ class DualGrid {
   [[nodiscard]] double node_fraction(const Index3& node) const;
   /// Fraction of the cell that the node stands for.
   [[nodiscard]] double cell_fraction(const Index3& node, const NodeOrigin& origin) const;
-  /// Plane of the cell itself, or a pure one where it has none.
+  /// Plane of the cell itself, an outermost one, or a pure one where it has none.
   [[nodiscard]] UnitPlane cell_plane(const Index3& node, const NodeOrigin& origin) const;
   /// True where the plane of the node's cell decides on which side the node is.
   [[nodiscard]] bool is_extended(const Index3& node, const NodeOrigin& origin) const;

@@ -28,7 +28,8 @@ inline constexpr unsigned kEightAbreast = 8;
 template <class T>
 struct CellBatch {
   const T* centre[kBatch];
-  std::uint8_t reach[kBatch];  ///< bit per axis: so are the columns of heights along it; kEightAbreast
+  std::uint8_t
+      reach[kBatch];  ///< bit per axis: so are the columns of heights along it; kEightAbreast
   int count;
 };
 

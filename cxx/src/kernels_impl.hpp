@@ -40,15 +40,15 @@ template <class T>
   planes.undone = ties & left;
   left &= ~ties;
   const auto take = [&](int n, int axis, bool low, const Heights& heights)
-                        __attribute__((always_inline)) {
-                          planes.from_heights |= 1U << n;
-                          lanes.axis[n] = axis;
-                          lanes.sense[n] = low ? 1.0 : -1.0;
-                          for (int t = 0; t < 2; ++t) {
-                            lanes.low[t][n] = heights.low[t];
-                            lanes.high[t][n] = heights.high[t];
-                          }
-                        };
+      __attribute__((always_inline)) {
+    planes.from_heights |= 1U << n;
+    lanes.axis[n] = axis;
+    lanes.sense[n] = low ? 1.0 : -1.0;
+    for (int t = 0; t < 2; ++t) {
+      lanes.low[t][n] = heights.low[t];
+      lanes.high[t][n] = heights.high[t];
+    }
+  };
   while (left != 0) {
     const int n = __builtin_ctz(left);
     const unsigned bit = 1U << n;
@@ -250,8 +250,7 @@ void solve_windows(WindowBatch& batch) {
   const WindowPlane<Lanes> outer = prepared(outside);
   const WindowPlane<Lanes> inner = prepared(inside);
   const unsigned there = batch.count == kBatch ? 0xffU : (1U << batch.count) - 1U;
-  batch.undone =
-      ~bits_of(surely_monotone(outer, inner) | outside.is_pure | inside.is_pure) & there;
+  batch.undone = ~bits_of(surely_monotone(outer, inner) | outside.is_pure | inside.is_pure) & there;
   const NewtonRoot<Lanes> root =
       newton(outer, inner, broadcast(0.0), broadcast(1.0), plane_crossing(outer, inner));
   store(select(sense > broadcast(0.0), root.mu, 1.0 - root.mu), batch.share);

@@ -25,15 +25,19 @@ class Workers {
   explicit Workers(int threads)
 #ifdef DIFMESH_WITH_TBB
       // Asked for more threads than there are, oneTBB would print a warning.
-      : arena_(threads > 0 ? std::min(threads, tbb::info::default_concurrency())
-                           : tbb::task_arena::automatic),
-        serial_(threads == 1)
+      : threads_(threads > 0 ? std::min(threads, tbb::info::default_concurrency())
+                             : tbb::info::default_concurrency()),
+        arena_(threads > 0 ? threads_ : tbb::task_arena::automatic)
 #endif
   {
     if (threads < 0) {
       throw Error(ErrorCode::invalid_argument,
                   "threads must not be negative, got " + std::to_string(threads));
     }
+  }
+
+  [[nodiscard]] int count() const {
+    return threads_;
   }
 
   /// body(begin, end) for portions that tile [0, count); portion p starts at p * grain.
@@ -44,7 +48,7 @@ class Workers {
       body(portion * grain, std::min(count, (portion + 1) * grain));
     };
 #ifdef DIFMESH_WITH_TBB
-    if (!serial_ && portions > 1) {
+    if (threads_ > 1 && portions > 1) {
       arena_.execute([&] { tbb::parallel_for(std::int64_t{0}, portions, run); });
       return;
     }
@@ -54,11 +58,12 @@ class Workers {
     }
   }
 
-#ifdef DIFMESH_WITH_TBB
-
  private:
+#ifdef DIFMESH_WITH_TBB
+  int threads_;
   tbb::task_arena arena_;
-  bool serial_;
+#else
+  int threads_ = 1;
 #endif
 };
 
@@ -66,6 +71,10 @@ class Workers {
 class Phases {
  public:
   Phases(Workers& workers, const Progress& progress) : workers_(workers), progress_(progress) {}
+
+  [[nodiscard]] int threads() const { return workers_.count(); }
+  /// As many portions as a phase must have to report its progress.
+  [[nodiscard]] std::int64_t least_portions() const { return progress_ ? kSlices : 1; }
 
   /// As Workers::for_portions, as the next `weight` of the whole (all weights sum to 1).
   template <class Body>

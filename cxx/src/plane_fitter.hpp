@@ -1,5 +1,5 @@
 #pragma once
-// Normals and planes of the flagged cells of a PlaneTable, row by row.
+// Normals and planes of flagged cells, row by row.
 
 #include <algorithm>
 #include <bit>
@@ -7,7 +7,9 @@
 #include <cstdint>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
+#include "difmesh/reconstruct.hpp"
 #include "fitted_normals.hpp"
 #include "kernels.hpp"
 #include "memory_hints.hpp"
@@ -21,6 +23,15 @@ namespace difmesh::detail {
 struct SourceCounts {
   std::int64_t heights = 0;
   std::int64_t gradient_free = 0;
+
+  void add(const SourceCounts& other) {
+    heights += other.heights;
+    gradient_free += other.gradient_free;
+  }
+  void add_to(Report& report) const {
+    report.height_function_cells += heights;
+    report.gradient_free_cells += gradient_free;
+  }
 };
 
 /// The least value of T that counts as full, and the greatest that counts as empty.
@@ -80,11 +91,10 @@ struct FitterPlan {
 template <class T>
 class PlaneFitter {
  public:
-  PlaneFitter(const FitterPlan<T>& plan, const NodeBits& nodes, PlaneTable& table)
-      : plan_(plan), nodes_(nodes), table_(table) {}
+  PlaneFitter(const FitterPlan<T>& plan, const NodeBits& nodes) : plan_(plan), nodes_(nodes) {}
 
-  /// The flagged cells of one row; planes are numbered from `number` on. They are in the table after finish().
-  void fit_row(std::int64_t j, std::int64_t k, std::int64_t number) {
+  /// The cells of one row that words of bits flag. The planes are there after finish().
+  void fit_row(std::int64_t j, std::int64_t k, const std::uint64_t* words, UnitPlane* plane) {
     const BlockField& field = plan_.field;
     const Index3 before{field.block.offset[0] - 1, j - 1 + field.block.offset[1],
                         k - 1 + field.block.offset[2]};
@@ -96,16 +106,15 @@ class PlaneFitter {
     if (inside_row) {
       row += field.element({field.axes[0].low, before[1], before[2]});
     }
-    const std::uint64_t* words = table_.flags().row(j, k);
     const CrossedAcross crossed(nodes_, j, k);
     const T* last_line = nullptr;
-    for (std::int64_t w = 0; w < table_.flags().words(); ++w) {
-      for (std::uint64_t left = words[w]; left != 0; left &= left - 1, ++number) {
+    for (std::int64_t w = 0; w < nodes_.words(); ++w) {
+      for (std::uint64_t left = words[w]; left != 0; left &= left - 1, ++plane) {
         const std::int64_t i = 64 * w + std::countr_zero(left) + before[0];
         const std::int64_t from_side = margin(0, i);
         // Rows are read four abreast.
         if (!inside_row || from_side < 1 || i + 2 >= field.axes[0].high) {
-          fit_alone({i, before[1], before[2]}, number);
+          fit_alone({i, before[1], before[2]}, *plane);
           continue;
         }
         const unsigned reach = (from_side >= kReach ? 1U : 0U) | across |
@@ -116,7 +125,7 @@ class PlaneFitter {
           read_ahead(centre, reach, crossed.is_y(w, left), crossed.is_z(w, left));
         }
         pending_[pending_count_++] = {
-            centre, {i, before[1], before[2]}, number, static_cast<std::uint8_t>(reach)};
+            centre, plane, {i, before[1], before[2]}, static_cast<std::uint8_t>(reach)};
         if (pending_count_ == kPending) {
           take_pending();
         }
@@ -124,14 +133,14 @@ class PlaneFitter {
     }
   }
 
-  void finish() {
+  /// Returns what came of the cells since the last time.
+  SourceCounts finish() {
     take_pending();
     if (batch_.count > 0) {
       flush();
     }
+    return std::exchange(counts_, {});
   }
-
-  [[nodiscard]] const SourceCounts& counts() const { return counts_; }
 
  private:
   static constexpr std::int64_t kReach = 4;
@@ -142,8 +151,8 @@ class PlaneFitter {
 
   struct Pending {
     const T* centre;
+    UnitPlane* plane;
     Index3 cell;
-    std::int64_t number;
     std::uint8_t reach;
   };
 
@@ -203,10 +212,10 @@ class PlaneFitter {
     plan_.kernel(plan_.task, batch_, planes);
     for (int n = 0; n < batch_.count; ++n) {
       if ((planes.undone >> n & 1) != 0) {
-        fit_alone(cells_[n], numbers_[n]);
+        fit_alone(cells_[n], *planes_[n]);
         continue;
       }
-      UnitPlane& plane = table_[numbers_[n]];
+      UnitPlane& plane = *planes_[n];
       if ((planes.gradient_free >> n & 1) != 0) {
         plane = gradient_free(fraction_of(*batch_.centre[n]));
         continue;
@@ -226,14 +235,14 @@ class PlaneFitter {
   void add(const Pending& cell) {
     const double fraction = fraction_of(*cell.centre);
     if (fraction == 0.0 || fraction == 1.0) {
-      table_[cell.number] = UnitPlane::pure(fraction == 1.0);
+      *cell.plane = UnitPlane::pure(fraction == 1.0);
       return;
     }
     const int n = batch_.count++;
     batch_.centre[n] = cell.centre;
     batch_.reach[n] = cell.reach;
     cells_[n] = cell.cell;
-    numbers_[n] = cell.number;
+    planes_[n] = cell.plane;
     if (batch_.count == kBatch) {
       flush();
     }
@@ -244,7 +253,7 @@ class PlaneFitter {
     return {{0.0, 0.0, 0.0}, fraction - 0.5};
   }
 
-  void fit_alone(const Index3& cell, std::int64_t number) {
+  void fit_alone(const Index3& cell, UnitPlane& plane) {
     const BlockField& field = plan_.field;
     Index3 resolved;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -253,27 +262,26 @@ class PlaneFitter {
     const double fraction =
         fraction_of(static_cast<const T*>(field.view.data)[field.element(resolved)]);
     if (fraction == 0.0 || fraction == 1.0) {
-      table_[number] = UnitPlane::pure(fraction == 1.0);
+      plane = UnitPlane::pure(fraction == 1.0);
       return;
     }
     const UnitNormal normal = plan_.stencil(resolved);
     if (normal.source == NormalSource::none) {
-      table_[number] = gradient_free(fraction);
+      plane = gradient_free(fraction);
       return;
     }
     counts_.heights += normal.source == NormalSource::height_function ? 1 : 0;
-    table_[number] = {normal.m, cube_offset(normal.m[0], normal.m[1], normal.m[2], fraction)};
+    plane = {normal.m, cube_offset(normal.m[0], normal.m[1], normal.m[2], fraction)};
   }
 
   const FitterPlan<T>& plan_;
   const NodeBits& nodes_;
-  PlaneTable& table_;
   SourceCounts counts_;
   Pending pending_[kPending];
   int pending_count_ = 0;
   CellBatch<T> batch_{};
   Index3 cells_[kBatch];
-  std::int64_t numbers_[kBatch] = {};
+  UnitPlane* planes_[kBatch] = {};
 };
 
 }  // namespace difmesh::detail

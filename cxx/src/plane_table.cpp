@@ -9,66 +9,14 @@
 namespace difmesh::detail {
 namespace {
 
-// The highest local index that is a cell of its own: the node after the block, unless it lies on or
-// beyond a side of the domain.
-std::int64_t last_cell(const BlockField& field, std::size_t axis) {
-  const std::int64_t end = field.block.offset[axis] + field.block.dims[axis];
-  const bool goes_on = end < field.grid.dims[axis] || field.sides[2 * axis + 1] == Side::periodic;
-  return field.block.dims[axis] + (goes_on ? 1 : 0);
-}
-
-// Both ends of the crossed edges of a row of cells: nodes that differ from a neighbour.
-void flag_edge_ends(const NodeBits& nodes, std::int64_t j, std::int64_t k, std::int64_t last_cell,
-                    std::uint64_t* __restrict flags) {
-  const std::uint64_t* const here = nodes.row(j, k);
-  const std::int64_t row = nodes.row_index(j, k);
-  bool alike = nodes.are_alike(row, row);
-  const auto beside = [&](std::int64_t dj, std::int64_t dk) {
-    const std::int64_t to_j = j + dj;
-    const std::int64_t to_k = k + dk;
-    const bool exists = to_j >= nodes.first()[1] && to_j <= nodes.last()[1] &&
-                        to_k >= nodes.first()[2] && to_k <= nodes.last()[2];
-    alike = alike && (!exists || nodes.are_alike(row, nodes.row_index(to_j, to_k)));
-    return exists ? nodes.row(to_j, to_k) : here;
-  };
-  const std::uint64_t* const south = beside(-1, 0);
-  const std::uint64_t* const north = beside(1, 0);
-  const std::uint64_t* const below_it = beside(0, -1);
-  const std::uint64_t* const above = beside(0, 1);
-  const std::int64_t words = nodes.words();
-  if (alike) {
-    std::fill_n(flags, words, 0);
-    return;
-  }
-  for (std::int64_t w = 0; w < words; ++w) {
-    flags[w] = ((here[w] ^ south[w]) | (here[w] ^ north[w])) |
-               ((here[w] ^ below_it[w]) | (here[w] ^ above[w]));
-  }
-  const std::int64_t last_start = nodes.last()[0] - 1;
-  std::uint64_t from_west = 0;
-  for (std::int64_t w = 0; w < words; ++w) {
-    const std::uint64_t from_east = w + 1 < words ? here[w + 1] << 63 : 0;
-    std::uint64_t crossed = here[w] ^ (here[w] >> 1 | from_east);
-    if (w == 0 || w >= last_start / 64) {
-      crossed &= NodeBits::range(w, nodes.first()[0], last_start);
-    }
-    flags[w] |= crossed | crossed << 1 | from_west;
-    from_west = crossed >> 63;
-  }
-  flags[0] &= NodeBits::range(0, 1, last_cell);
-  for (std::int64_t w = last_cell / 64; w < words; ++w) {
-    flags[w] &= NodeBits::range(w, 1, last_cell);
-  }
-}
-
+// Flags the outermost cells of the block.
 template <class T>
 class Flagger {
  public:
   Flagger(const BlockField& field, const NodeBits& nodes, const Array<std::uint8_t>& row_ends,
           bool open_layers)
-      : field_(field), nodes_(nodes), row_ends_(row_ends) {
+      : field_(field), nodes_(nodes), row_ends_(row_ends), cells_(field) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      last_[axis] = last_cell(field, axis);
       const std::int64_t end = field.block.offset[axis] + field.block.dims[axis];
       open_[axis][0] =
           open_layers && field.sides[2 * axis] == Side::open && field.block.offset[axis] == 0;
@@ -77,18 +25,43 @@ class Flagger {
     }
   }
 
-  void flag_row(std::int64_t j, std::int64_t k, NodeBits& flags) const {
-    if (j < 1 || k < 1 || j > last_[1] || k > last_[2]) {
-      flags.clear_row(j, k);
-      return;
+  /// Returns how many there are in the row, whose bits hold anything where there are none.
+  std::int64_t flag_row(std::int64_t j, std::int64_t k, NodeBits& flags) const {
+    if (!cells_.is_row(j, k)) {
+      return 0;
     }
-    std::uint64_t* row = flags.row(j, k);
-    flag_edge_ends(nodes_, j, k, last_[0], row);
-    if (in_layer(1, j) || in_layer(2, k)) {
+    const EdgeEnds ends(nodes_, j, k);
+    const bool is_layer = in_layer(1, j) || in_layer(2, k);
+    const bool has_open_ends = !is_layer && (open_[0][0] || open_[0][1]);
+    const unsigned open_ends = has_open_ends ? interfacial_ends_of(j, k) : 0U;
+    if (ends.are_none() && !is_layer && open_ends == 0) {
+      return 0;
+    }
+    std::uint64_t* const row = flags.row(j, k);
+    const std::int64_t words = nodes_.words();
+    if (ends.are_none()) {
+      std::fill_n(row, words, 0);
+    } else if (cells_.is_outermost(j, k)) {
+      for (std::int64_t w = 0; w < words; ++w) {
+        row[w] = ends.word(w) & NodeBits::range(w, 1, cells_.last[0]);
+      }
+    } else {
+      flag_outermost(ends, row);
+    }
+    if (is_layer) {
       flag_layer_row(j, k, row);
-    } else if (open_[0][0] || open_[0][1]) {
-      flag_ends(j, k, row);
     }
+    if ((open_ends & 1) != 0) {
+      set(row, 1);
+    }
+    if ((open_ends & 2) != 0) {
+      set(row, cells_.dims[0]);
+    }
+    std::int64_t count = 0;
+    for (std::int64_t w = 0; w < words; ++w) {
+      count += row[w] != 0 ? count_bits(row[w]) : 0;
+    }
+    return count;
   }
 
  private:
@@ -106,42 +79,72 @@ class Flagger {
         set(row, i);
       }
     };
-    const std::int64_t dims = field_.block.dims[0];
+    const std::int64_t dims = cells_.dims[0];
     for (std::int64_t i = 1; i <= dims; ++i) {
       flag_interfacial(i, first[(i - 1) * field_.view.strides[0]]);
     }
-    if (last_[0] > dims) {
+    if (cells_.last[0] > dims) {
       const std::int64_t beyond = field_.axes[0].resolve(dims + field_.block.offset[0]);
-      flag_interfacial(last_[0], first[(beyond - field_.block.offset[0]) * field_.view.strides[0]]);
+      flag_interfacial(cells_.last[0],
+                       first[(beyond - field_.block.offset[0]) * field_.view.strides[0]]);
     }
   }
-  // The interfacial cells of a row at open sides in x.
-  void flag_ends(std::int64_t j, std::int64_t k, std::uint64_t* row) const {
-    const Index3& dims = field_.block.dims;
+  // Of a row between inner ones.
+  void flag_outermost(const EdgeEnds& ends, std::uint64_t* row) const {
+    std::fill_n(row, nodes_.words(), 0);
+    for (const std::int64_t i : {std::int64_t{1}, cells_.dims[0], cells_.last[0]}) {
+      row[i / 64] |= ends.word(i / 64) & std::uint64_t{1} << (i % 64);
+    }
+  }
+  // Which cells at open sides in x are interfacial: bit 0 the first, bit 1 the last.
+  [[nodiscard]] unsigned interfacial_ends_of(std::int64_t j, std::int64_t k) const {
+    const Index3& dims = cells_.dims;
     const bool own = j <= dims[1] && k <= dims[2];
     const unsigned ends = own ? row_ends_[static_cast<std::size_t>((k - 1) * dims[1] + j - 1)]
                               : interfacial_ends(cells_of(j, k), dims[0], field_);
-    if (open_[0][0] && (ends & 1) != 0) {
-      set(row, 1);
-    }
-    if (open_[0][1] && (ends & 2) != 0) {
-      set(row, dims[0]);
-    }
+    return ends & ((open_[0][0] ? 1U : 0U) | (open_[0][1] ? 2U : 0U));
   }
   static void set(std::uint64_t* row, std::int64_t i) {
     row[i / 64] |= std::uint64_t{1} << (i % 64);
   }
   [[nodiscard]] bool in_layer(std::size_t axis, std::int64_t local) const {
-    return (open_[axis][0] && local == 1) || (open_[axis][1] && local == field_.block.dims[axis]);
+    return (open_[axis][0] && local == 1) || (open_[axis][1] && local == cells_.dims[axis]);
   }
   const BlockField& field_;
   const NodeBits& nodes_;
   const Array<std::uint8_t>& row_ends_;
-  Index3 last_{};
+  BlockCells cells_;
   bool open_[3][2] = {};
 };
 
 }  // namespace
+
+EdgeEnds::EdgeEnds(const NodeBits& nodes, std::int64_t j, std::int64_t k)
+    : nodes_(&nodes), here_(nodes.row(j, k)) {
+  const std::int64_t row = nodes.row_index(j, k);
+  are_none_ = nodes.are_alike(row, row);
+  const auto beside = [&](std::int64_t dj, std::int64_t dk) {
+    const std::int64_t to_j = j + dj;
+    const std::int64_t to_k = k + dk;
+    const bool exists = to_j >= nodes.first()[1] && to_j <= nodes.last()[1] &&
+                        to_k >= nodes.first()[2] && to_k <= nodes.last()[2];
+    are_none_ = are_none_ && (!exists || nodes.are_alike(row, nodes.row_index(to_j, to_k)));
+    return exists ? nodes.row(to_j, to_k) : here_;
+  };
+  south_ = beside(-1, 0);
+  north_ = beside(1, 0);
+  below_ = beside(0, -1);
+  above_ = beside(0, 1);
+}
+
+BlockCells::BlockCells(const BlockField& field) : dims(field.block.dims) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    // The node after the block is a cell unless it lies on or beyond a side of the domain.
+    const std::int64_t end = field.block.offset[axis] + field.block.dims[axis];
+    const bool goes_on = end < field.grid.dims[axis] || field.sides[2 * axis + 1] == Side::periodic;
+    last[axis] = field.block.dims[axis] + (goes_on ? 1 : 0);
+  }
+}
 
 PlaneTable::PlaneTable(NodeBits flags, std::vector<std::int64_t> row_counts)
     : flags_(std::move(flags)), row_start_(std::move(row_counts)) {
@@ -151,12 +154,11 @@ PlaneTable::PlaneTable(NodeBits flags, std::vector<std::int64_t> row_counts)
   }
   row_start_.push_back(sum);
   planes_.resize(static_cast<std::size_t>(sum));
-  hint_large_pages(planes_);
 }
 
 std::int64_t PlaneTable::rank(const Index3& node) const {
   const std::uint64_t* row = flags_.row(node[1], node[2]);
-  std::int64_t number = row_start(flags_.row_index(node[1], node[2]));
+  std::int64_t number = row_start_[static_cast<std::size_t>(flags_.row_index(node[1], node[2]))];
   const std::int64_t word = node[0] / 64;
   for (std::int64_t w = 0; w < word; ++w) {
     number += count_bits(row[w]);
@@ -176,10 +178,8 @@ PlaneTable make_planes(const BlockField& field, const NodeBits& nodes,
                                           options.placement == Placement::plic);
     phases.run(0.05, nodes.rows(), grain, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t row = begin; row < end; ++row) {
-        const std::int64_t j = row % row_length;
-        const std::int64_t k = row / row_length;
-        flagger.flag_row(j, k, flags);
-        row_counts[static_cast<std::size_t>(row)] = flags.count_row(j, k);
+        row_counts[static_cast<std::size_t>(row)] =
+            flagger.flag_row(row % row_length, row / row_length, flags);
       }
     });
   });
@@ -188,21 +188,19 @@ PlaneTable make_planes(const BlockField& field, const NodeBits& nodes,
   with_scalar(field.view.type, [&](auto type) {
     using T = decltype(type);
     const FitterPlan<T> plan(field, options.normals);
-    phases.run(0.4, nodes.rows(), grain, [&](std::int64_t begin, std::int64_t end) {
-      PlaneFitter<T> fitter(plan, nodes, table);
+    phases.run(0.05, nodes.rows(), grain, [&](std::int64_t begin, std::int64_t end) {
+      PlaneFitter<T> fitter(plan, nodes);
       for (std::int64_t row = begin; row < end; ++row) {
-        if (table.row_start(row) != table.row_start(row + 1)) {
-          fitter.fit_row(row % row_length, row / row_length, table.row_start(row));
+        if (!table.is_empty(row)) {
+          fitter.fit_row(row % row_length, row / row_length, table.flags(row), table.planes(row));
         }
       }
-      fitter.finish();
-      portions[static_cast<std::size_t>(begin / grain)] = fitter.counts();
+      portions[static_cast<std::size_t>(begin / grain)] = fitter.finish();
     });
   });
-  report.planes = table.size();
+  report.planes += table.size();
   for (const SourceCounts& counts : portions) {
-    report.height_function_cells += counts.heights;
-    report.gradient_free_cells += counts.gradient_free;
+    counts.add_to(report);
   }
   return table;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Planes of the cells that need one: those at an end of a crossed dual edge, and the interfacial
-// ones along open sides, where the surface may run on to the domain face.
+// ones along open sides, where the surface may run on to the domain face. Those in the outermost layers of the block
+// are kept in a table, as what lies beyond may ask for any of them; the others: see plane_slabs.hpp.
 
 #include <cstdint>
 #include <vector>
@@ -28,57 +29,111 @@ struct UnitPlane {
 
 static_assert(sizeof(UnitPlane) == 4 * sizeof(double));
 
+/// Planes of one row, for a walk along it.
+class PlaneRow {
+ public:
+  PlaneRow() = default;
+  /// \param flags words of bits: the cells that have planes
+  PlaneRow(const std::uint64_t* flags, const UnitPlane* planes) : flags_(flags), planes_(planes) {}
+
+  /// Must be called for words 0, 1, 2 … in turn.
+  void enter_word(std::int64_t w) {
+    planes_ += in_word_;
+    word_ = flags_[w];
+    in_word_ = word_ != 0 ? count_bits(word_) : 0;
+  }
+  /// \pre the node at this bit of the word has a plane
+  [[nodiscard]] const UnitPlane& at(int bit) const {
+    return planes_[count_bits(word_ & below(bit))];
+  }
+  /// \pre the first node of the next word has a plane
+  [[nodiscard]] const UnitPlane& first_of_next() const { return planes_[in_word_]; }
+
+ private:
+  const std::uint64_t* flags_ = nullptr;
+  const UnitPlane* planes_ = nullptr;
+  std::uint64_t word_ = 0;
+  std::int64_t in_word_ = 0;
+};
+
+/// Flags the ends of the crossed edges in a row of nodes: those that differ from a neighbour.
+class EdgeEnds {
+ public:
+  EdgeEnds(const NodeBits& nodes, std::int64_t j, std::int64_t k);
+
+  /// True if there are none, as far as that is known without a look at the bits.
+  [[nodiscard]] bool are_none() const { return are_none_; }
+  [[nodiscard]] std::uint64_t word(std::int64_t w) const {
+    const std::uint64_t here = here_[w];
+    const std::uint64_t across =
+        ((here ^ south_[w]) | (here ^ north_[w])) | ((here ^ below_[w]) | (here ^ above_[w]));
+    const std::uint64_t from_east = w + 1 < nodes_->words() ? here_[w + 1] << 63 : 0;
+    std::uint64_t crossed = here ^ (here >> 1 | from_east);
+    const std::int64_t last_start = nodes_->last()[0] - 1;
+    if (w == 0 || w >= last_start / 64) {
+      crossed &= NodeBits::range(w, nodes_->first()[0], last_start);
+    }
+    const std::uint64_t from_west = w > 0 ? (here_[w - 1] >> 63 ^ here) & 1 : 0;
+    return across | crossed | crossed << 1 | from_west;
+  }
+
+ private:
+  const NodeBits* nodes_;
+  const std::uint64_t* here_;
+  const std::uint64_t* south_;
+  const std::uint64_t* north_;
+  const std::uint64_t* below_;
+  const std::uint64_t* above_;
+  bool are_none_;
+};
+
+/// The cells of a block that are cells of their own, by local index: 1 to last, the next block's first layer
+/// included. The outermost ones are 1, dims and last.
+struct BlockCells {
+  Index3 dims;
+  Index3 last;
+
+  explicit BlockCells(const BlockField& field);
+  [[nodiscard]] bool is_row(std::int64_t j, std::int64_t k) const {
+    return j >= 1 && k >= 1 && j <= last[1] && k <= last[2];
+  }
+  /// True if all cells of the row are outermost ones.
+  [[nodiscard]] bool is_outermost(std::int64_t j, std::int64_t k) const {
+    return j == 1 || k == 1 || j >= dims[1] || k >= dims[2];
+  }
+  /// Bits of the cells between the outermost ones.
+  [[nodiscard]] std::uint64_t inner(std::int64_t w) const {
+    return NodeBits::range(w, 2, dims[0] - 1);
+  }
+};
+
 class PlaneTable {
  public:
   PlaneTable() = default;
-  /// Takes the cells' flags and their number in each row; no planes yet.
+  /// Takes the cells' flags and their number in each row; no planes yet. Rows of flags without cells are not looked at.
   PlaneTable(NodeBits flags, std::vector<std::int64_t> row_counts);
 
-  [[nodiscard]] const NodeBits& flags() const { return flags_; }
-  [[nodiscard]] bool has(const Index3& node) const { return flags_.test(node); }
+  [[nodiscard]] bool has(const Index3& node) const {
+    return !is_empty(flags_.row_index(node[1], node[2])) && flags_.test(node);
+  }
   /// \pre has(node)
   [[nodiscard]] const UnitPlane& at(const Index3& node) const {
     return planes_[static_cast<std::size_t>(rank(node))];
   }
-  /// Number of the first plane of a row.
-  [[nodiscard]] std::int64_t row_start(std::int64_t row) const {
-    return row_start_[static_cast<std::size_t>(row)];
-  }
-  [[nodiscard]] const UnitPlane& operator[](std::int64_t number) const {
-    return planes_[static_cast<std::size_t>(number)];
-  }
-  [[nodiscard]] UnitPlane& operator[](std::int64_t number) {
-    return planes_[static_cast<std::size_t>(number)];
+  [[nodiscard]] bool is_empty(std::int64_t row) const {
+    return row_start_[static_cast<std::size_t>(row)] ==
+           row_start_[static_cast<std::size_t>(row) + 1];
   }
   [[nodiscard]] std::int64_t size() const { return row_start_.back(); }
 
-  /// Planes of one row, for a walk along it: far cheaper than at().
-  class Row {
-   public:
-    Row() = default;
-    Row(const PlaneTable& table, std::int64_t j, std::int64_t k)
-        : flags_(table.flags_.row(j, k)),
-          planes_(table.planes_.data() + table.row_start(table.flags_.row_index(j, k))) {}
-
-    /// Must be called for words 0, 1, 2 … in turn.
-    void enter_word(std::int64_t w) {
-      planes_ += in_word_;
-      word_ = flags_[w];
-      in_word_ = word_ != 0 ? count_bits(word_) : 0;
-    }
-    /// \pre the node at this bit of the word has a plane
-    [[nodiscard]] const UnitPlane& at(int bit) const {
-      return planes_[count_bits(word_ & below(bit))];
-    }
-    /// \pre the first node of the next word has a plane
-    [[nodiscard]] const UnitPlane& first_of_next() const { return planes_[in_word_]; }
-
-   private:
-    const std::uint64_t* flags_ = nullptr;
-    const UnitPlane* planes_ = nullptr;
-    std::uint64_t word_ = 0;
-    std::int64_t in_word_ = 0;
-  };
+  /// Words of bits, and the planes of their cells. \pre the row is not empty
+  [[nodiscard]] const std::uint64_t* flags(std::int64_t row) const { return flags_.row(row); }
+  [[nodiscard]] const UnitPlane* planes(std::int64_t row) const {
+    return planes_.data() + row_start_[static_cast<std::size_t>(row)];
+  }
+  [[nodiscard]] UnitPlane* planes(std::int64_t row) {
+    return planes_.data() + row_start_[static_cast<std::size_t>(row)];
+  }
 
  private:
   [[nodiscard]] std::int64_t rank(const Index3& node) const;
@@ -88,8 +143,8 @@ class PlaneTable {
   Array<UnitPlane> planes_;
 };
 
-/// Flags the cells, estimates their normals and fits their planes. Fills the report's facts about
-/// them. row_ends: see ClassifiedNodes.
+/// Flags the outermost cells, estimates their normals and fits their planes. Adds the facts about
+/// them to the report. row_ends: see ClassifiedNodes.
 [[nodiscard]] PlaneTable make_planes(const BlockField& field, const NodeBits& nodes,
                                      const Array<std::uint8_t>& row_ends, const Options& options,
                                      Phases& phases, Report& report);

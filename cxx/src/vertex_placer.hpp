@@ -87,14 +87,22 @@ class VertexPlacer {
               field.grid.origin[axis] + (index + 0.5 + share) * field.grid.spacing[axis]);
   }
 
-  Vec3 normal(const DualEdge& edge, double share) const {
+  [[nodiscard]] Vec3 normal(const DualEdge& edge, double share) const {
+    return normal(edge.axis, edge.upper_inside,
+                  grid_.cell_plane(edge.lower, grid_.origin(edge.lower)),
+                  grid_.cell_plane(edge.upper, grid_.origin(edge.upper)), share);
+  }
+
+  // The same from the planes of the two cells.
+  [[nodiscard]] Vec3 normal(std::size_t axis, bool upper_inside, const UnitPlane& lower,
+                            const UnitPlane& upper, double share) const {
     Vec3 sum{0.0, 0.0, 0.0};
-    add_normal(edge, edge.lower, 1.0 - share, sum);
-    add_normal(edge, edge.upper, share, sum);
+    add_normal(axis, upper_inside, lower, 1.0 - share, sum);
+    add_normal(axis, upper_inside, upper, share, sum);
     const double length = std::hypot(sum[0], sum[1], sum[2]);
     if (!(length > 0.0)) {
       sum = {0.0, 0.0, 0.0};
-      sum[edge.axis] = edge.upper_inside ? -1.0 : 1.0;
+      sum[axis] = upper_inside ? -1.0 : 1.0;
       return sum;
     }
     return {sum[0] / length, sum[1] / length, sum[2] / length};
@@ -134,7 +142,7 @@ class VertexPlacer {
     const UnitPlane& outer = edge.upper_inside ? lower : upper;
     const UnitPlane& inner = edge.upper_inside ? upper : lower;
     return {window_guess(oriented(edge, outer), oriented(edge, inner)),
-            physical_weight(edge, outer), physical_weight(edge, inner)};
+            physical_weight(edge.axis, outer), physical_weight(edge.axis, inner)};
   }
 
  private:
@@ -174,10 +182,10 @@ class VertexPlacer {
                            baseline::filling(outer_plane, inner_plane, 1.0).excess + 0.5);
   }
 
-  [[nodiscard]] double physical_weight(const DualEdge& edge, const UnitPlane& plane) const {
+  [[nodiscard]] double physical_weight(std::size_t axis, const UnitPlane& plane) const {
     const Vec3& spacing = grid_.field().grid.spacing;
     if (!plane.has_normal()) {
-      return std::abs(plane.a) >= 0.5 ? 0.0 : spacing[edge.axis];
+      return std::abs(plane.a) >= 0.5 ? 0.0 : spacing[axis];
     }
     return 1.0 /
            std::hypot(plane.m[0] / spacing[0], plane.m[1] / spacing[1], plane.m[2] / spacing[2]);
@@ -225,12 +233,12 @@ class VertexPlacer {
     return UnitPlane::pure(inside);
   }
 
-  void add_normal(const DualEdge& edge, const Index3& node, double share, Vec3& sum) const {
-    const UnitPlane plane = grid_.cell_plane(node, grid_.origin(node));
-    const double weight = share * physical_weight(edge, plane);
+  void add_normal(std::size_t axis, bool upper_inside, const UnitPlane& plane, double share,
+                  Vec3& sum) const {
+    const double weight = share * physical_weight(axis, plane);
     const Vec3& spacing = grid_.field().grid.spacing;
     if (!plane.has_normal()) {
-      sum[edge.axis] += (edge.upper_inside ? -weight : weight) / spacing[edge.axis];
+      sum[axis] += (upper_inside ? -weight : weight) / spacing[axis];
       return;
     }
     for (std::size_t t = 0; t < 3; ++t) {

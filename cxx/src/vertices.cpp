@@ -5,6 +5,8 @@
 #include <bit>
 
 #include "memory_hints.hpp"
+#include "plane_slabs.hpp"
+#include "stopwatch.hpp"
 #include "vertex_placer.hpp"
 #include "window_queue.hpp"
 
@@ -35,22 +37,20 @@ class RowPlacer {
   RowPlacer(const VertexPlacer& placer, Mesh& mesh)
       : placer_(placer),
         grid_(placer.grid()),
-        with_planes_(placer.options().placement == Placement::plic),
+        solves_windows_(placer.options().placement == Placement::plic),
         writer_(placer, mesh),
         queue_(placer, writer_, counts_) {}
 
-  void place_row(std::int64_t j, std::int64_t k, std::int64_t first_vertex) {
+  /// \param planes of the row, the next in y and the next in z, where there are any; they must stay until finish()
+  void place_row(std::int64_t j, std::int64_t k, std::int64_t first_vertex,
+                 std::array<PlaneRow, 3>* planes) {
     const NodeBits& nodes = grid_.nodes();
     const EdgeRow edges(nodes, j, k);
     const Index3& dims = grid_.field().block.dims;
     // Rows whose edges in y, and in z, lead to cells of the block from such.
     const bool own = j >= 1 && k >= 1 && j <= dims[1] && k <= dims[2];
     const bool own_along[3] = {own, own && j < dims[1], own && k < dims[2]};
-    if (with_planes_) {
-      planes_[0] = PlaneTable::Row(grid_.planes(), j, k);
-      planes_[1] = PlaneTable::Row(grid_.planes(), std::min(j + 1, nodes.last()[1]), k);
-      planes_[2] = PlaneTable::Row(grid_.planes(), j, std::min(k + 1, nodes.last()[2]));
-    }
+    planes_ = planes;
     const T* const row = own ? row_of_cells(j, k) : nullptr;
     const bool ends_y = is_end(1, j);
     const bool ends_z = is_end(2, k);
@@ -59,8 +59,8 @@ class RowPlacer {
     const std::int64_t plain_from = std::max<std::int64_t>(1, nodes.first()[0] + 1);
     auto vertex = static_cast<std::size_t>(first_vertex);
     for (std::int64_t w = 0; w < nodes.words(); ++w) {
-      if (with_planes_) {
-        for (PlaneTable::Row& each : planes_) {
+      if (planes_ != nullptr) {
+        for (PlaneRow& each : *planes_) {
           each.enter_word(w);
         }
       }
@@ -87,15 +87,19 @@ class RowPlacer {
         DualEdge edge{node, node, axis, upper_inside};
         ++edge.upper[axis];
         const double share = placer_.place(edge, counts_);
-        writer_.write(vertex++, node, axis, upper_inside, share, placer_.position(edge, share));
+        writer_.write(vertex, node, axis, placer_.position(edge, share));
+        if (writer_.with_normals()) {
+          writer_.write_normal(vertex, placer_.normal(edge, share));
+        }
+        ++vertex;
       });
     }
   }
 
-  // Asks for the cells that place_row() will read.
+  /// Asks for the cells that place_row() will read where it has no windows to solve.
   void read_ahead(std::int64_t j, std::int64_t k) const {
     const Index3& dims = grid_.field().block.dims;
-    if (with_planes_ || j < 1 || k < 1 || j > dims[1] || k > dims[2]) {
+    if (j < 1 || k < 1 || j > dims[1] || k > dims[2]) {
       return;
     }
     const NodeBits& nodes = grid_.nodes();
@@ -118,6 +122,7 @@ class RowPlacer {
     }
   }
 
+  /// All vertices are there after this. Returns the facts about all edges so far.
   const EdgeCounts& finish() {
     queue_.flush();
     return counts_;
@@ -139,28 +144,37 @@ class RowPlacer {
   // An edge between cells of the block; `row` is that of its lower cell.
   void place_own(const Index3& node, std::size_t axis, bool upper_inside, int bit, const T* row,
                  std::size_t vertex) {
-    if (with_planes_) {
-      const UnitPlane& lower = planes_[0].at(bit);
-      const UnitPlane& upper =
-          axis != 0 ? planes_[axis].at(bit) : (bit < 63 ? (&lower)[1] : planes_[0].first_of_next());
-      queue_.add(node, axis, upper_inside, vertex, lower, upper);
+    if (solves_windows_) {
+      queue_.add(node, axis, upper_inside, vertex, lower_plane(bit), upper_plane(axis, bit));
       return;
     }
     const Index3& strides = grid_.field().view.strides;
     const T* const cell = row + (node[0] - 1) * strides[0];
     const double share = placer_.cleared(
         placer_.share_of(upper_inside, fraction_of(*cell), fraction_of(cell[strides[axis]])));
-    writer_.write(vertex, node, axis, upper_inside, share,
-                  placer_.position_between_cells(node, axis, share));
+    writer_.write(vertex, node, axis, placer_.position_between_cells(node, axis, share));
+    if (writer_.with_normals()) {
+      writer_.write_normal(vertex, placer_.normal(axis, upper_inside, lower_plane(bit),
+                                                  upper_plane(axis, bit), share));
+    }
+  }
+
+  // Of the edge along the axis from the node at a bit of the word entered last.
+  [[nodiscard]] const UnitPlane& lower_plane(int bit) const { return (*planes_)[0].at(bit); }
+  [[nodiscard]] const UnitPlane& upper_plane(std::size_t axis, int bit) const {
+    if (axis != 0) {
+      return (*planes_)[axis].at(bit);
+    }
+    return bit < 63 ? (&lower_plane(bit))[1] : (*planes_)[0].first_of_next();
   }
 
   const VertexPlacer& placer_;
   const DualGrid& grid_;
-  bool with_planes_;
+  bool solves_windows_;
   EdgeCounts counts_;
   VertexWriter writer_;
   WindowQueue queue_;
-  std::array<PlaneTable::Row, 3> planes_;
+  std::array<PlaneRow, 3>* planes_ = nullptr;
 };
 
 // Holds rows back until what they read has arrived.
@@ -188,6 +202,80 @@ class RowsAhead {
   std::array<std::int64_t, kAhead> rows_{};
   std::int64_t next_ = 0;
 };
+
+// What came of a range of rows.
+struct Placed {
+  EdgeCounts edges;
+  SourceCounts sources;
+  std::int64_t planes = 0;
+  double plane_seconds = 0.0;
+  double seconds = 0.0;
+};
+
+// Rows of which no vertex needs a plane.
+template <class T>
+Placed place_rows(const VertexPlacer& placer, const std::vector<std::int64_t>& row_start,
+                  std::int64_t begin, std::int64_t end, Mesh& mesh) {
+  const std::int64_t row_length = placer.grid().nodes().last()[1] + 1;
+  RowPlacer<T> row_placer(placer, mesh);
+  RowsAhead ahead;
+  const auto place = [&](std::int64_t row) {
+    row_placer.place_row(row % row_length, row / row_length,
+                         row_start[static_cast<std::size_t>(row)], nullptr);
+  };
+  for (std::int64_t row = begin; row < end; ++row) {
+    if (row_start[static_cast<std::size_t>(row)] != row_start[static_cast<std::size_t>(row) + 1]) {
+      row_placer.read_ahead(row % row_length, row / row_length);
+      ahead.push(row, place);
+    }
+  }
+  ahead.drain(place);
+  Placed result;
+  result.edges = row_placer.finish();
+  return result;
+}
+
+// Slabs [begin, end) of rows.
+template <class T>
+Placed place_slabs(const VertexPlacer& placer, const FitterPlan<T>& plan,
+                   const std::vector<std::int64_t>& row_start, std::int64_t begin, std::int64_t end,
+                   Mesh& mesh) {
+  const NodeBits& nodes = placer.grid().nodes();
+  Stopwatch watch;
+  RowPlacer<T> row_placer(placer, mesh);
+  PlaneSlabs<T> slabs(plan, placer.grid());
+  Placed result;
+  for (std::int64_t k = begin; k < end; ++k) {
+    slabs.move_to(k);
+    for (std::int64_t j = 0; j <= nodes.last()[1]; ++j) {
+      const auto row = static_cast<std::size_t>(nodes.row_index(j, k));
+      if (row_start[row] == row_start[row + 1]) {
+        continue;
+      }
+      std::array<PlaneRow, 3> planes{slabs.row(j, k),
+                                     slabs.row(std::min(j + 1, nodes.last()[1]), k),
+                                     slabs.row(j, std::min(k + 1, nodes.last()[2]))};
+      row_placer.place_row(j, k, row_start[row], &planes);
+    }
+    result.edges = row_placer.finish();
+  }
+  result.sources = slabs.counts();
+  result.planes = slabs.planes();
+  result.plane_seconds = slabs.seconds();
+  result.seconds = watch.lap();
+  return result;
+}
+
+// Slabs that a thread takes at once. Each portion computes the planes of the slab after it once more, so there are few:
+// enough to keep the threads busy to the end, and to report progress between them.
+std::int64_t slabs_per_portion(const NodeBits& nodes, const Phases& phases) {
+  constexpr std::int64_t kPortionsPerThread = 8;
+  constexpr std::int64_t kFewest = 4;
+  const std::int64_t slabs = nodes.last()[2] + 1;
+  const std::int64_t portions = phases.threads() == 1 ? 1 : kPortionsPerThread * phases.threads();
+  const std::int64_t wanted = std::max(portions, phases.least_portions());
+  return std::max(kFewest, (slabs + wanted - 1) / wanted);
+}
 
 }  // namespace
 
@@ -226,42 +314,46 @@ void place_vertices(const DualGrid& grid, const Options& options,
   mesh.edge_ids.resize(options.edge_ids ? total : 0);
   hint_large_pages(mesh.positions);
   hint_large_pages(mesh.normals);
+  const NodeBits& nodes = grid.nodes();
   const VertexPlacer placer(grid, options);
-  const std::int64_t rows = grid.nodes().rows();
-  const std::int64_t grain = rows_per_portion(grid.nodes());
-  const std::int64_t row_length = grid.nodes().last()[1] + 1;
-  std::vector<EdgeCounts> portions(static_cast<std::size_t>((rows + grain - 1) / grain));
+  const bool with_planes = options.placement == Placement::plic || options.vertex_normals;
+  const std::int64_t count = with_planes ? nodes.last()[2] + 1 : nodes.rows();
+  const std::int64_t grain =
+      with_planes ? slabs_per_portion(nodes, phases) : rows_per_portion(nodes);
+  std::vector<Placed> portions(static_cast<std::size_t>((count + grain - 1) / grain));
+  Stopwatch watch;
   with_scalar(grid.field().view.type, [&](auto type) {
-    phases.run(0.25, rows, grain, [&](std::int64_t begin, std::int64_t end) {
-      RowPlacer<decltype(type)> row_placer(placer, mesh);
-      RowsAhead ahead;
-      const auto place = [&](std::int64_t row) {
-        row_placer.place_row(row % row_length, row / row_length,
-                             row_start[static_cast<std::size_t>(row)]);
-      };
-      for (std::int64_t row = begin; row < end; ++row) {
-        if (row_start[static_cast<std::size_t>(row)] !=
-            row_start[static_cast<std::size_t>(row) + 1]) {
-          row_placer.read_ahead(row % row_length, row / row_length);
-          ahead.push(row, place);
-        }
-      }
-      ahead.drain(place);
-      portions[static_cast<std::size_t>(begin / grain)] = row_placer.finish();
+    using T = decltype(type);
+    const FitterPlan<T> plan(grid.field(), options.normals);
+    phases.run(0.62, count, grain, [&](std::int64_t begin, std::int64_t end) {
+      portions[static_cast<std::size_t>(begin / grain)] =
+          with_planes ? place_slabs<T>(placer, plan, row_start, begin, end, mesh)
+                      : place_rows<T>(placer, row_start, begin, end, mesh);
     });
   });
+  Placed all;
   std::int64_t steps = 0;
-  for (const EdgeCounts& counts : portions) {
+  for (const Placed& portion : portions) {
+    const EdgeCounts& counts = portion.edges;
     report.solved_edges += counts.solved;
     report.newton_steps_max = std::max(report.newton_steps_max, counts.most_steps);
     report.non_monotone_edges += counts.non_monotone;
     report.closed = report.closed && !counts.on_end;
     steps += counts.steps;
+    report.planes += portion.planes;
+    portion.sources.add_to(report);
+    all.plane_seconds += portion.plane_seconds;
+    all.seconds += portion.seconds;
   }
   if (report.solved_edges > 0) {
     report.newton_steps_mean =
         static_cast<double>(steps) / static_cast<double>(report.solved_edges);
   }
+  // Planes and vertices take turns in each thread: the wall time is shared out as theirs is.
+  const double seconds = watch.lap();
+  const double for_planes = all.seconds > 0.0 ? seconds * all.plane_seconds / all.seconds : 0.0;
+  report.seconds.normals += for_planes;
+  report.seconds.vertices += seconds - for_planes;
 }
 
 }  // namespace difmesh::detail

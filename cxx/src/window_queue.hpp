@@ -24,36 +24,26 @@ namespace difmesh::detail {
 class VertexWriter {
  public:
   VertexWriter(const VertexPlacer& placer, Mesh& mesh)
-      : placer_(placer),
-        mesh_(mesh),
+      : field_(placer.grid().field()),
         positions_(mesh.positions.data()),
-        with_more_(!mesh.normals.empty() || !mesh.edge_ids.empty()) {}
+        normals_(mesh.normals.empty() ? nullptr : mesh.normals.data()),
+        edge_ids_(mesh.edge_ids.empty() ? nullptr : mesh.edge_ids.data()) {}
 
-  void write(std::size_t number, const Index3& lower, std::size_t axis, bool upper_inside,
-             double share, const Vec3& position) const {
+  void write(std::size_t number, const Index3& lower, std::size_t axis,
+             const Vec3& position) const {
     positions_[number] = position;
-    if (with_more_) {
-      write_more(number, lower, axis, upper_inside, share);
+    if (edge_ids_ != nullptr) {
+      edge_ids_[number] = edge_id(field_, lower, axis);
     }
   }
+  [[nodiscard]] bool with_normals() const { return normals_ != nullptr; }
+  void write_normal(std::size_t number, const Vec3& normal) const { normals_[number] = normal; }
 
  private:
-  void write_more(std::size_t number, const Index3& lower, std::size_t axis, bool upper_inside,
-                  double share) const {
-    if (!mesh_.normals.empty()) {
-      DualEdge edge{lower, lower, axis, upper_inside};
-      ++edge.upper[axis];
-      mesh_.normals[number] = placer_.normal(edge, share);
-    }
-    if (!mesh_.edge_ids.empty()) {
-      mesh_.edge_ids[number] = edge_id(placer_.grid().field(), lower, axis);
-    }
-  }
-
-  const VertexPlacer& placer_;
-  Mesh& mesh_;
+  const BlockField& field_;
   Vec3* positions_;
-  bool with_more_;
+  Vec3* normals_;
+  std::uint64_t* edge_ids_;
 };
 
 /// Solves and writes the vertices of edges between cells. The planes must stay where they are until flush().
@@ -93,8 +83,12 @@ class WindowQueue {
       counts_.add(static_cast<int>(batch_.steps[n]));
       const Entry& edge = edges_[n];
       const double share = placer_.cleared(batch_.share[n]);
-      writer_.write(edge.number, edge.lower, edge.axis, batch_.sense[n] > 0.0, share,
+      writer_.write(edge.number, edge.lower, edge.axis,
                     placer_.position_between_cells(edge.lower, edge.axis, share));
+      if (writer_.with_normals()) {
+        writer_.write_normal(edge.number, placer_.normal(edge.axis, batch_.sense[n] > 0.0,
+                                                         lower_plane(n), upper_plane(n), share));
+      }
     }
     batch_.count = 0;
   }
@@ -106,6 +100,13 @@ class WindowQueue {
     std::size_t number;
   };
 
+  [[nodiscard]] const UnitPlane& lower_plane(int n) const {
+    return *static_cast<const UnitPlane*>(batch_.lower[n]);
+  }
+  [[nodiscard]] const UnitPlane& upper_plane(int n) const {
+    return *static_cast<const UnitPlane*>(batch_.upper[n]);
+  }
+
   // The edges that the kernel left.
   void solve_alone() {
     for (int n = 0; n < batch_.count; ++n) {
@@ -114,8 +115,8 @@ class WindowQueue {
       }
       DualEdge edge{edges_[n].lower, edges_[n].lower, edges_[n].axis, batch_.sense[n] > 0.0};
       ++edge.upper[edge.axis];
-      const UnitPlane& lower = *static_cast<const UnitPlane*>(batch_.lower[n]);
-      const UnitPlane& upper = *static_cast<const UnitPlane*>(batch_.upper[n]);
+      const UnitPlane& lower = lower_plane(n);
+      const UnitPlane& upper = upper_plane(n);
       const WindowRoot root =
           window::solve_examined(placer_.oriented(edge, edge.upper_inside ? lower : upper),
                                  placer_.oriented(edge, edge.upper_inside ? upper : lower),
