@@ -165,10 +165,14 @@ class EdgeRow {
     if ((x | y | z) == 0) {
       return {};
     }
-    const std::int64_t first = nodes_->first()[0];
-    const std::int64_t last = nodes_->last()[0];
-    const std::uint64_t valid = NodeBits::range(w, first, last);
-    return {x & NodeBits::range(w, first, last - 1), y & valid, z & valid};
+    const Index3& last = nodes_->last();
+    const std::uint64_t from = w == 0 ? ~std::uint64_t{0} << nodes_->first()[0] : ~std::uint64_t{0};
+    if (w + 1 < nodes_->words()) {
+      return {x & from, y & from, z & from};
+    }
+    const std::uint64_t before_last = from & below(static_cast<int>(last[0] % 64));
+    const std::uint64_t valid = before_last | std::uint64_t{1} << (last[0] % 64);
+    return {x & before_last, y & valid, z & valid};
   }
 
  private:

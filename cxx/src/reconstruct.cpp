@@ -50,18 +50,18 @@ Reconstruction run(const BlockField& field, const Options& options) {
   }
   report.seconds.normals = watch.lap();
 
-  const auto vertex_start = detail::count_vertices(grid.nodes(), phases);
-  if (vertex_start.back() > std::numeric_limits<std::uint32_t>::max()) {
-    throw Error(ErrorCode::too_large, "the mesh would have " + std::to_string(vertex_start.back()) +
+  const detail::MeshCounts counts = detail::count_mesh(grid, phases);
+  const std::int64_t vertices = counts.vertex_start.back();
+  if (vertices > std::numeric_limits<std::uint32_t>::max()) {
+    throw Error(ErrorCode::too_large, "the mesh would have " + std::to_string(vertices) +
                                           " vertices, more than 2^32 - 1; reconstruct blocks");
   }
-  const auto triangle_start = detail::count_triangles(grid, vertex_start, phases);
   report.seconds.count = watch.lap();
 
-  detail::place_vertices(grid, options, vertex_start, phases, mesh, report);
+  detail::place_vertices(grid, options, counts.vertex_start, phases, mesh, report);
   watch.lap();
 
-  detail::connect(grid, vertex_start, triangle_start, phases, mesh);
+  detail::connect(grid, counts, phases, mesh);
   if (report.closed) {
     report.enclosed_volume = detail::enclosed_volume(mesh, middle_level(field), phases);
   }

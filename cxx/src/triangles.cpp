@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <numeric>
 
 #include "case_table.hpp"
 
@@ -157,74 +158,167 @@ class VertexNumbers {
  public:
   VertexNumbers(const RowsAround& rows, std::size_t w) {
     for (std::size_t n = 0; n < 4; ++n) {
-      word_[n] = rows[n].edges[w];
-      next_word_[n] = rows[n].edges[w + 1];
-      word_start_[n] = rows[n].start[w];
+      const EdgeWord& word = rows[n].edges[w];
+      const EdgeWord& next = rows[n].edges[w + 1];
+      x_[n] = word.x;
+      y_[n] = word.y;
+      z_[n] = word.z;
+      next_x_[n] = next.x;
+      next_y_[n] = next.y;
+      start_[n] = rows[n].start[w];
+      any_ |= word.any();
     }
   }
 
-  /// By edge of the cell last visited; meaningless for edges that are not crossed.
-  [[nodiscard]] const std::array<std::uint32_t, kCubeEdges>& numbers() const { return number_; }
+  /// Place in numbers() of the vertex on an edge of the cell; see case_table.hpp. Bit 0 of a row is its place in y, bit
+  /// 1 in z; the cell has an edge in y only from its lower rows in y, in z from its lower ones in z.
+  [[nodiscard]] static constexpr unsigned place_of(unsigned edge) {
+    const unsigned along = edge_axis(edge);
+    const unsigned upper_x = along == 0 ? 0 : edge & 1U;
+    const unsigned row = along == 0 ? edge & 3U : (along == 1 ? edge & 2U : edge >> 1U & 1U);
+    return 4U * (along + 2U * upper_x) + row;
+  }
+
+  /// Of the cell last visited; meaningless for edges that are not crossed.
+  [[nodiscard]] const std::uint64_t (&numbers() const)[20] { return number_; }
 
   /// Visits the cell at a bit. Bits must rise.
   void visit(int bit) {
-    if (bit != next_bit_) {
-      for (unsigned n = 0; n < 4; ++n) {
-        start_[n] =
-            word_start_[n] +
-            (word_[n].any() != 0 ? static_cast<std::uint32_t>(word_[n].count_below(bit)) : 0);
-        enter_node(n, 0, word_[n], bit);
-      }
-    } else {
-      // Cells come in runs: what was on the upper side of the last is on the lower one.
-      for (unsigned n = 4; n < kCubeEdges; n += 2) {
-        number_[n] = number_[n + 1];
-      }
+    // Nodes between this cell and the last: rarely do edges start there.
+    if (bit != next_bit_ && (any_ & below(bit) & ~below(next_bit_)) != 0) {
+      pass(below(bit) & ~below(next_bit_));
     }
+    const bool is_last = bit == 63;
+    const std::uint64_t* const upper_x = is_last ? next_x_ : x_;
+    const std::uint64_t* const upper_y = is_last ? next_y_ : y_;
+    const int upper = is_last ? 0 : bit + 1;
     for (unsigned n = 0; n < 4; ++n) {
-      number_[n] = start_[n];
-      start_[n] += edges_at(word_[n], bit);
-      if (bit < 63) {
-        enter_node(n, 1, word_[n], bit + 1);
-      } else {
-        enter_node(n, 1, next_word_[n], 0);
-      }
+      const std::uint64_t x = start_[n];
+      const std::uint64_t y = x + (x_[n] >> bit & 1);
+      const std::uint64_t z = y + (y_[n] >> bit & 1);
+      const std::uint64_t next = z + (z_[n] >> bit & 1);
+      const std::uint64_t next_y = next + (upper_x[n] >> upper & 1);
+      number_[n] = x;
+      number_[4 + n] = y;
+      number_[8 + n] = z;
+      number_[12 + n] = next_y;
+      number_[16 + n] = next_y + (upper_y[n] >> upper & 1);
+      start_[n] = next;
     }
-    next_bit_ = bit + 1;
+    next_bit_ = upper;
   }
 
  private:
-  static std::uint32_t bit_of(std::uint64_t word, int bit) {
-    return static_cast<std::uint32_t>(word >> bit & 1);
-  }
-  static std::uint32_t edges_at(const EdgeWord& word, int bit) {
-    return bit_of(word.x, bit) + bit_of(word.y, bit) + bit_of(word.z, bit);
-  }
-
-  // The edges across x that start at a node whose vertices begin at start_[n]; they are numbered x, y, z. Bit 0
-  // of the row n is its place in y, bit 1 in z; the cell has an edge in y only from its lower rows in y, in z from
-  // its lower ones in z.
-  void enter_node(unsigned n, unsigned upper, const EdgeWord& word, int bit) {
-    const std::uint32_t y = start_[n] + bit_of(word.x, bit);
-    if ((n & 1U) == 0) {
-      number_[4U + upper + (n & 2U)] = y;
-    }
-    if ((n & 2U) == 0) {
-      number_[8U + upper + 2U * (n & 1U)] = y + bit_of(word.y, bit);
+  void pass(std::uint64_t nodes) {
+    for (unsigned n = 0; n < 4; ++n) {
+      start_[n] += static_cast<std::uint64_t>(
+          count_bits(x_[n] & nodes) + count_bits(y_[n] & nodes) + count_bits(z_[n] & nodes));
     }
   }
 
-  std::array<EdgeWord, 4> word_;
-  std::array<EdgeWord, 4> next_word_;
-  std::array<std::uint32_t, 4> word_start_;  // vertices before the word
-  std::array<std::uint32_t, 4> start_{};     // vertices before the node at next_bit_
-  std::array<std::uint32_t, kCubeEdges> number_{};
-  int next_bit_ = -1;
+  std::uint64_t x_[4];  // crossed edges by row
+  std::uint64_t y_[4];
+  std::uint64_t z_[4];
+  std::uint64_t next_x_[4];
+  std::uint64_t next_y_[4];
+  std::uint64_t start_[4];    // vertices before the node at next_bit_
+  std::uint64_t any_ = 0;     // of all rows
+  std::uint64_t number_[20];  // by node and edge: lower x, y, z, upper y, z; and by row
+  int next_bit_ = 0;
+};
+
+// The triangles of a cell without ambiguous faces, at most four. One with such faces: see CellRow::triangles().
+struct PlainCell {
+  std::uint8_t place[12];  // in VertexNumbers::numbers()
+  std::uint8_t count;
+  bool is_ambiguous;
+};
+constexpr std::size_t kMostPlain = 4;
+
+using PlainCells = std::array<PlainCell, 256>;
+
+PlainCells make_plain_cells() {
+  PlainCells cells{};
+  for (unsigned corners = 0; corners < cells.size(); ++corners) {
+    PlainCell& cell = cells[corners];
+    cell.is_ambiguous = ambiguous_faces(static_cast<std::uint8_t>(corners)) != 0;
+    if (cell.is_ambiguous) {
+      continue;
+    }
+    for (const CubeTriangle& triangle : cube_triangles(static_cast<std::uint8_t>(corners), 0)) {
+      for (std::size_t n = 0; n < 3; ++n) {
+        cell.place[3 * cell.count + n] =
+            static_cast<std::uint8_t>(VertexNumbers::place_of(triangle[n]));
+      }
+      ++cell.count;
+    }
+  }
+  return cells;
+}
+
+const PlainCells& plain_cells() {
+  static const PlainCells cells = make_plain_cells();
+  return cells;
+}
+
+// Writes triangles in the order in which they come. Those of plain cells are written four at a time, whatever their
+// number, so they wait in a buffer.
+class TriangleWriter {
+ public:
+  explicit TriangleWriter(Triangle* to) : to_(to), cells_(plain_cells()) {}
+
+  /// \pre the cell is not ambiguous
+  void add(const PlainCell& cell, const std::uint64_t (&number)[20]) {
+    Triangle* const triangles = buffer_.data() + count_;
+    for (std::size_t n = 0; n < kMostPlain; ++n) {
+      triangles[n] = {static_cast<std::uint32_t>(number[cell.place[3 * n]]),
+                      static_cast<std::uint32_t>(number[cell.place[3 * n + 1]]),
+                      static_cast<std::uint32_t>(number[cell.place[3 * n + 2]])};
+    }
+    count_ += cell.count;
+    if (count_ > kFull) {
+      flush();
+    }
+  }
+  void add(const CubeTriangles& triangles, const std::uint64_t (&number)[20]) {
+    const auto vertex = [&](std::uint8_t edge) {
+      return static_cast<std::uint32_t>(number[VertexNumbers::place_of(edge)]);
+    };
+    for (const CubeTriangle& t : triangles) {
+      buffer_[count_++] = {vertex(t[0]), vertex(t[1]), vertex(t[2])};
+    }
+    if (count_ > kFull) {
+      flush();
+    }
+  }
+  [[nodiscard]] const PlainCell& cell(std::uint8_t corners) const { return cells_[corners]; }
+
+  void flush() {
+    to_ = std::copy_n(buffer_.data(), count_, to_);
+    count_ = 0;
+  }
+
+ private:
+  static constexpr std::size_t kFull = 256;
+  static constexpr std::size_t kMost = 10;  // of one cell
+
+  Triangle* to_;
+  const PlainCells& cells_;
+  std::size_t count_ = 0;
+  std::array<Triangle, kFull + kMost> buffer_;
 };
 
 bool exists(const NodeBits& nodes, std::int64_t j, std::int64_t k) {
   return j >= nodes.first()[1] && k >= nodes.first()[2] && j < nodes.last()[1] &&
          k < nodes.last()[2];
+}
+
+// True if no cell of a row has a triangle, as far as that is known without a look at its bits.
+bool is_bare_cell_row(const NodeBits& nodes, std::int64_t j, std::int64_t k) {
+  const std::int64_t row = nodes.row_index(j, k);
+  const std::int64_t above = nodes.row_index(j, k + 1);
+  return nodes.are_alike(row, row + 1) && nodes.are_alike(row, above) &&
+         nodes.are_alike(above, above + 1);
 }
 
 // No vertex on the four rows of nodes: no triangle either.
@@ -241,66 +335,89 @@ bool is_bare(const NodeBits& nodes, std::int64_t j, std::int64_t k,
 
 }  // namespace
 
-std::vector<std::int64_t> count_triangles(const DualGrid& grid,
-                                          const std::vector<std::int64_t>& vertex_start,
-                                          Phases& phases) {
+MeshCounts count_mesh(const DualGrid& grid, Phases& phases) {
   const NodeBits& nodes = grid.nodes();
   const std::int64_t row_length = nodes.last()[1] + 1;
-  std::vector<std::int64_t> start(static_cast<std::size_t>(nodes.rows()) + 1, 0);
-  phases.run(0.05, nodes.rows(), rows_per_portion(nodes),
-             [&](std::int64_t begin, std::int64_t end) {
-               for (std::int64_t row = begin; row < end; ++row) {
-                 const std::int64_t j = row % row_length;
-                 const std::int64_t k = row / row_length;
-                 if (!exists(nodes, j, k) || is_bare(nodes, j, k, vertex_start)) {
-                   continue;
-                 }
-                 const CellRow cells(grid, j, k);
-                 std::size_t count = 0;
-                 cells.for_each_active_word([&](std::int64_t w, std::uint64_t active) {
-                   for (std::uint64_t left = active; left != 0; left &= left - 1) {
-                     const int bit = std::countr_zero(left);
-                     count += cells.triangles(64 * w + bit, cells.corners(w, bit)).size();
-                   }
-                 });
-                 start[static_cast<std::size_t>(row) + 1] = static_cast<std::int64_t>(count);
-               }
-             });
-  for (std::size_t row = 1; row < start.size(); ++row) {
-    start[row] += start[row - 1];
-  }
-  return start;
-}
-
-void connect(const DualGrid& grid, const std::vector<std::int64_t>& vertex_start,
-             const std::vector<std::int64_t>& triangle_start, Phases& phases, Mesh& mesh) {
-  const NodeBits& nodes = grid.nodes();
-  const std::int64_t row_length = nodes.last()[1] + 1;
-  mesh.triangles.resize(static_cast<std::size_t>(triangle_start.back()));
-  hint_large_pages(mesh.triangles);
-  phases.run(0.1, nodes.rows(), rows_per_portion(nodes), [&](std::int64_t begin, std::int64_t end) {
-    RowsAround rows(nodes, vertex_start);
+  const std::int64_t grain = rows_per_portion(nodes);
+  MeshCounts counts;
+  counts.vertex_start.resize(static_cast<std::size_t>(nodes.rows()) + 1);
+  counts.triangle_start.resize(static_cast<std::size_t>((nodes.rows() + grain - 1) / grain) + 1);
+  phases.run(0.07, nodes.rows(), grain, [&](std::int64_t begin, std::int64_t end) {
+    std::size_t triangles = 0;
     for (std::int64_t row = begin; row < end; ++row) {
-      auto next = static_cast<std::size_t>(triangle_start[static_cast<std::size_t>(row)]);
-      if (next == static_cast<std::size_t>(triangle_start[static_cast<std::size_t>(row) + 1])) {
-        continue;
-      }
       const std::int64_t j = row % row_length;
       const std::int64_t k = row / row_length;
+      std::int64_t vertices = 0;
+      if (j >= nodes.first()[1] && k >= nodes.first()[2] && !is_bare(nodes, j, k)) {
+        const EdgeRow edges(nodes, j, k);
+        for (std::int64_t w = 0; w < nodes.words(); ++w) {
+          const EdgeWord word = edges.word(w);
+          vertices += word.any() != 0 ? word.count() : 0;
+        }
+      }
+      counts.vertex_start[static_cast<std::size_t>(row) + 1] = vertices;
+      if (!exists(nodes, j, k) || is_bare_cell_row(nodes, j, k)) {
+        continue;
+      }
+      const CellRow cells(grid, j, k);
+      const PlainCells& plain = plain_cells();
+      cells.for_each_active_word([&](std::int64_t w, std::uint64_t active) {
+        for (std::uint64_t left = active; left != 0; left &= left - 1) {
+          const int bit = std::countr_zero(left);
+          const std::uint8_t corners = cells.corners(w, bit);
+          triangles += plain[corners].is_ambiguous ? cells.triangles(64 * w + bit, corners).size()
+                                                   : plain[corners].count;
+        }
+      });
+    }
+    counts.triangle_start[static_cast<std::size_t>(begin / grain) + 1] =
+        static_cast<std::int64_t>(triangles);
+  });
+  counts.vertex_start[0] = 0;
+  std::partial_sum(counts.vertex_start.begin(), counts.vertex_start.end(),
+                   counts.vertex_start.begin());
+  std::partial_sum(counts.triangle_start.begin(), counts.triangle_start.end(),
+                   counts.triangle_start.begin());
+  return counts;
+}
+
+void connect(const DualGrid& grid, const MeshCounts& counts, Phases& phases, Mesh& mesh) {
+  const NodeBits& nodes = grid.nodes();
+  const std::int64_t row_length = nodes.last()[1] + 1;
+  const std::int64_t grain = rows_per_portion(nodes);
+  mesh.triangles.resize(static_cast<std::size_t>(counts.triangle_start.back()));
+  hint_large_pages(mesh.triangles);
+  phases.run(0.1, nodes.rows(), grain, [&](std::int64_t begin, std::int64_t end) {
+    const auto portion = static_cast<std::size_t>(begin / grain);
+    if (counts.triangle_start[portion] == counts.triangle_start[portion + 1]) {
+      return;
+    }
+    RowsAround rows(nodes, counts.vertex_start);
+    TriangleWriter writer(mesh.triangles.data() + counts.triangle_start[portion]);
+    for (std::int64_t row = begin; row < end; ++row) {
+      const std::int64_t j = row % row_length;
+      const std::int64_t k = row / row_length;
+      if (!exists(nodes, j, k) || is_bare(nodes, j, k, counts.vertex_start)) {
+        continue;
+      }
       const CellRow cells(grid, j, k);
       rows.move_to(j, k);
       cells.for_each_active_word([&](std::int64_t w, std::uint64_t active) {
         VertexNumbers around(rows, static_cast<std::size_t>(w));
-        const std::array<std::uint32_t, kCubeEdges>& number = around.numbers();
         for (std::uint64_t left = active; left != 0; left &= left - 1) {
           const int bit = std::countr_zero(left);
           around.visit(bit);
-          for (const CubeTriangle& t : cells.triangles(64 * w + bit, cells.corners(w, bit))) {
-            mesh.triangles[next++] = {number[t[0]], number[t[1]], number[t[2]]};
+          const std::uint8_t corners = cells.corners(w, bit);
+          const PlainCell& cell = writer.cell(corners);
+          if (cell.is_ambiguous) {
+            writer.add(cells.triangles(64 * w + bit, corners), around.numbers());
+          } else {
+            writer.add(cell, around.numbers());
           }
         }
       });
     }
+    writer.flush();
   });
 }
 

@@ -10,14 +10,19 @@
 
 namespace difmesh::detail {
 
-/// Number of the first triangle of each row of dual cells (named by their lower nodes); the total
-/// at the end.
-[[nodiscard]] std::vector<std::int64_t> count_triangles(
-    const DualGrid& grid, const std::vector<std::int64_t>& vertex_start, Phases& phases);
+/// What a mesh will hold. Vertices are numbered in the order of their dual edges' ids, triangles in that of
+/// the dual cells.
+struct MeshCounts {
+  std::vector<std::int64_t>
+      vertex_start;  ///< first vertex of each row of nodes; the total at the end
+  /// First triangle of each portion of rows of dual cells, which are named by their lower nodes (see rows_per_portion);
+  /// the total at the end.
+  std::vector<std::int64_t> triangle_start;
+};
+[[nodiscard]] MeshCounts count_mesh(const DualGrid& grid, Phases& phases);
 
-/// Fills mesh.triangles, in the order of the dual cells.
-void connect(const DualGrid& grid, const std::vector<std::int64_t>& vertex_start,
-             const std::vector<std::int64_t>& triangle_start, Phases& phases, Mesh& mesh);
+/// Fills mesh.triangles.
+void connect(const DualGrid& grid, const MeshCounts& counts, Phases& phases, Mesh& mesh);
 
 /// Volume inside a closed mesh, by the divergence theorem from a level in z near it. Summed in fixed
 /// portions.

@@ -279,32 +279,6 @@ std::int64_t slabs_per_portion(const NodeBits& nodes, const Phases& phases) {
 
 }  // namespace
 
-std::vector<std::int64_t> count_vertices(const NodeBits& nodes, Phases& phases) {
-  const std::int64_t row_length = nodes.last()[1] + 1;
-  std::vector<std::int64_t> start(static_cast<std::size_t>(nodes.rows()) + 1, 0);
-  phases.run(0.02, nodes.rows(), rows_per_portion(nodes),
-             [&](std::int64_t begin, std::int64_t end) {
-               for (std::int64_t row = begin; row < end; ++row) {
-                 const std::int64_t j = row % row_length;
-                 const std::int64_t k = row / row_length;
-                 if (j < nodes.first()[1] || k < nodes.first()[2] || is_bare(nodes, j, k)) {
-                   continue;
-                 }
-                 const EdgeRow edges(nodes, j, k);
-                 std::int64_t count = 0;
-                 for (std::int64_t w = 0; w < nodes.words(); ++w) {
-                   const EdgeWord word = edges.word(w);
-                   count += word.any() != 0 ? word.count() : 0;
-                 }
-                 start[static_cast<std::size_t>(row) + 1] = count;
-               }
-             });
-  for (std::size_t row = 1; row < start.size(); ++row) {
-    start[row] += start[row - 1];
-  }
-  return start;
-}
-
 void place_vertices(const DualGrid& grid, const Options& options,
                     const std::vector<std::int64_t>& row_start, Phases& phases, Mesh& mesh,
                     Report& report) {

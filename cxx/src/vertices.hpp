@@ -12,10 +12,6 @@
 
 namespace difmesh::detail {
 
-/// Number of the first vertex of each row of nodes; the total at the end. Vertices are numbered in
-/// the order of their dual edges' ids.
-[[nodiscard]] std::vector<std::int64_t> count_vertices(const NodeBits& nodes, Phases& phases);
-
 /// Fills positions and, as the options ask, normals and edge ids of the mesh. Adds the facts about
 /// edges to the report; report.closed becomes false where an edge lies on the end of the dual grid.
 void place_vertices(const DualGrid& grid, const Options& options,
