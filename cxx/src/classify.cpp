@@ -171,36 +171,40 @@ void classify_row(const BlockField& field, const RowClassifier<T>& classifier, c
   const T* row =
       static_cast<const T*>(view.data) + start[1] * view.strides[1] + start[2] * view.strides[2];
   const std::int64_t number = (start[2] * view.dims[1] + start[1]) * view.dims[0];
-  const auto run = [&](std::int64_t from, std::int64_t to, std::uint64_t* words,
-                       Statistics& facts) {
+  const auto check = [&](std::int64_t from, std::int64_t to, Statistics& facts) {
     classifier.row(row, view.strides[0], from, to, number, facts,
-                   [&](std::int64_t place, std::uint64_t bits, std::int64_t count) {
-                     if (words == nullptr) {
-                       return;
-                     }
-                     if (count < kGroup) {
-                       bits &= below(static_cast<int>(count));
-                     }
-                     const std::int64_t w = (place - from) / kGroup;
-                     words[w] |= bits << 1;
-                     if (bits >> 63 != 0) {
-                       words[w + 1] |= 1;
-                     }
-                   });
+                   [](std::int64_t, std::uint64_t, std::int64_t) {});
   };
   const std::int64_t first = field.block.ghost_low[0];
   const std::int64_t last = first + field.block.dims[0];
   Statistics ghosts;
-  run(0, first, nullptr, ghosts);
+  if (first > 0) {
+    check(0, first, ghosts);
+  }
   if (nodes == nullptr) {
-    run(first, last, nullptr, ghosts);
+    check(first, last, ghosts);
   } else {
     const std::int64_t j = start[1] - field.block.ghost_low[1] + 1;
     const std::int64_t k = start[2] - field.block.ghost_low[2] + 1;
-    nodes->clear_row(j, k);
-    run(first, last, nodes->row(j, k), statistics);
+    std::uint64_t* word = nodes->row(j, k);
+    std::uint64_t* const end = word + nodes->words();
+    std::uint64_t carry = 0;
+    classifier.row(row, view.strides[0], first, last, number, statistics,
+                   [&](std::int64_t, std::uint64_t bits, std::int64_t count) {
+                     if (count < kGroup) {
+                       bits &= below(static_cast<int>(count));
+                     }
+                     *word++ = bits << 1 | carry;
+                     carry = bits >> 63;
+                   });
+    if (word != end) {
+      *word++ = carry;
+      std::fill(word, end, 0);
+    }
   }
-  run(last, view.dims[0], nullptr, ghosts);
+  if (last < view.dims[0]) {
+    check(last, view.dims[0], ghosts);
+  }
   statistics.note_bad(ghosts.first_bad);
 }
 
@@ -227,14 +231,17 @@ void classify_row(const BlockField& field, const RowClassifier<T>& classifier, c
 // Sets the bits of the nodes that are not cells of the block.
 class BeyondFiller {
  public:
-  BeyondFiller(const BlockField& field, NodeBits& nodes) : field_(field), nodes_(nodes) {}
+  BeyondFiller(const BlockField& field, NodeBits& nodes) : field_(field), nodes_(nodes) {
+    ends_[0] = end_at(0);
+    ends_[1] = end_at(nodes.last()[0]);
+  }
 
   // The ends of a row of the block's cells. Thread safety: for different rows.
   void set_ends(std::int64_t j, std::int64_t k) {
     if (nodes_.first()[0] == 0) {
-      set_end(0, j, k);
+      set_end(ends_[0], j, k);
     }
-    set_end(nodes_.last()[0], j, k);
+    set_end(ends_[1], j, k);
   }
 
   // All other rows. \pre the rows of cells are complete
@@ -268,13 +275,21 @@ class BeyondFiller {
     const Index3 cell{cell_of(0, node[0]), cell_of(1, node[1]), cell_of(2, node[2])};
     nodes_.set(node, field_.fraction(cell) >= 0.5);
   }
-  void set_end(std::int64_t i, std::int64_t j, std::int64_t k) {
+  // A node at an end of all rows in x, and the node of the same row that it repeats, if it does.
+  struct End {
+    std::int64_t node;
+    std::int64_t repeated;  // 0: none
+  };
+  [[nodiscard]] End end_at(std::int64_t i) const {
     const std::int64_t cell = cell_of(0, i);
     const std::int64_t from = cell - field_.block.offset[0] + 1;
-    if (is_cell(cell) && is_own(0, from) && is_own(1, j) && is_own(2, k)) {
-      nodes_.set({i, j, k}, nodes_.test({from, j, k}));
+    return {i, is_cell(cell) && is_own(0, from) ? from : 0};
+  }
+  void set_end(const End& end, std::int64_t j, std::int64_t k) {
+    if (end.repeated > 0 && is_own(1, j) && is_own(2, k)) {
+      nodes_.set({end.node, j, k}, nodes_.test({end.repeated, j, k}));
     } else {
-      set_node({i, j, k});
+      set_node({end.node, j, k});
     }
   }
   // A whole row: constant beyond `empty` and `full`, else that of the cells it stands for.
@@ -302,7 +317,16 @@ class BeyondFiller {
 
   const BlockField& field_;
   NodeBits& nodes_;
+  End ends_[2]{};
 };
+
+// To the next row.
+void step(Index3& start, const Index3& dims) {
+  if (++start[1] == dims[1]) {
+    start[1] = 0;
+    ++start[2];
+  }
+}
 
 }  // namespace
 
@@ -329,8 +353,8 @@ ClassifiedNodes classify(const BlockField& field, double overshoot_bound, double
     const RowClassifier<T> classifier(field.purity_tolerance, overshoot_bound);
     phases.run(weight, rows, grain, [&](std::int64_t begin, std::int64_t end) {
       Statistics& statistics = portions[static_cast<std::size_t>(begin / grain)];
-      for (std::int64_t row = begin; row < end; ++row) {
-        const Index3 start{0, row % dims[1], row / dims[1]};
+      Index3 start{0, begin % dims[1], begin / dims[1]};
+      for (std::int64_t row = begin; row < end; ++row, step(start, dims)) {
         const std::int64_t j = start[1] - field.block.ghost_low[1];
         const std::int64_t k = start[2] - field.block.ghost_low[2];
         const bool in_block =
