@@ -27,10 +27,10 @@ inline constexpr unsigned kEightAbreast = 8;
 /// abreast.
 template <class T>
 struct CellBatch {
-  const T* centre[kBatch];
-  std::uint8_t
-      reach[kBatch];  ///< bit per axis: so are the columns of heights along it; kEightAbreast
-  int count;
+  const T* const* centre;
+  /// Bit per axis: so are the columns of heights along it; kEightAbreast.
+  const std::uint8_t* reach;
+  int count;  ///< at most kBatch
 };
 
 /// Bits of the masks are cells of the batch.

@@ -97,6 +97,13 @@ class NodeBits {
     const Kind kind = kinds_[static_cast<std::size_t>(row)];
     return kind != Kind::mixed && kind == kinds_[static_cast<std::size_t>(other)];
   }
+  /// The same of a row and its four neighbours. \pre they exist
+  [[nodiscard]] bool are_alike_around(std::int64_t row) const {
+    const std::int64_t slab = last_[1] + 1;
+    const Kind* const kind = kinds_.data() + row;
+    return *kind != Kind::mixed && *kind == kind[-1] && *kind == kind[1] && *kind == kind[-slab] &&
+           *kind == kind[slab];
+  }
   /// Bits of word w whose local index is in [from, to].
   [[nodiscard]] static std::uint64_t range(std::int64_t w, std::int64_t from, std::int64_t to) {
     const std::int64_t low = from - 64 * w;

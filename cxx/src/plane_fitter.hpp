@@ -124,10 +124,13 @@ class PlaneFitter {
           last_line = centre;
           read_ahead(centre, reach, crossed.is_y(w, left), crossed.is_z(w, left));
         }
-        pending_[pending_count_++] = {
-            centre, plane, {i, before[1], before[2]}, static_cast<std::uint8_t>(reach)};
-        if (pending_count_ == kPending) {
-          take_pending();
+        const int n = waiting_.count++;
+        waiting_.centre[n] = centre;
+        waiting_.plane[n] = plane;
+        waiting_.cell[n] = {i, before[1], before[2]};
+        waiting_.reach[n] = static_cast<std::uint8_t>(reach);
+        if (waiting_.count == kWaiting) {
+          fit_waiting(kBatch);
         }
       }
     }
@@ -135,10 +138,7 @@ class PlaneFitter {
 
   /// Returns what came of the cells since the last time.
   SourceCounts finish() {
-    take_pending();
-    if (batch_.count > 0) {
-      flush();
-    }
+    fit_waiting(1);
     return std::exchange(counts_, {});
   }
 
@@ -147,13 +147,21 @@ class PlaneFitter {
   // Elements that come into the cache together.
   static constexpr std::int64_t kLine = 64 / sizeof(T);
   // Cells wait until what they read has arrived.
-  static constexpr int kPending = 48;
+  static constexpr int kWaiting = 48;
 
-  struct Pending {
-    const T* centre;
-    UnitPlane* plane;
-    Index3 cell;
-    std::uint8_t reach;
+  struct Waiting {
+    const T* centre[kWaiting];
+    UnitPlane* plane[kWaiting];
+    Index3 cell[kWaiting];
+    std::uint8_t reach[kWaiting];
+    int count;
+
+    void move(int from, int to) {
+      centre[to] = centre[from];
+      plane[to] = plane[from];
+      cell[to] = cell[from];
+      reach[to] = reach[from];
+    }
   };
 
   // Where the surface crosses edges in y, or in z, at a cell: there its normal most likely points.
@@ -200,52 +208,52 @@ class PlaneFitter {
     }
   }
 
-  void take_pending() {
-    for (int n = 0; n < pending_count_; ++n) {
-      add(pending_[n]);
+  // Fits the cells that wait, up to fewer than `least`.
+  void fit_waiting(int least) {
+    int kept = 0;
+    for (int n = 0; n < waiting_.count; ++n) {
+      const double fraction = fraction_of(*waiting_.centre[n]);
+      if (fraction == 0.0 || fraction == 1.0) {
+        *waiting_.plane[n] = UnitPlane::pure(fraction == 1.0);
+        continue;
+      }
+      waiting_.move(n, kept++);
     }
-    pending_count_ = 0;
+    int next = 0;
+    while (kept - next >= least) {
+      const int count = std::min(kBatch, kept - next);
+      fit_batch(next, count);
+      next += count;
+    }
+    waiting_.count = kept - next;
+    for (int n = 0; n < waiting_.count; ++n) {
+      waiting_.move(next + n, n);
+    }
   }
 
-  void flush() {
+  void fit_batch(int first, int count) {
     PlaneBatch planes;
-    plan_.kernel(plan_.task, batch_, planes);
-    for (int n = 0; n < batch_.count; ++n) {
-      if ((planes.undone >> n & 1) != 0) {
-        fit_alone(cells_[n], *planes_[n]);
-        continue;
-      }
-      UnitPlane& plane = *planes_[n];
-      if ((planes.gradient_free >> n & 1) != 0) {
-        plane = gradient_free(fraction_of(*batch_.centre[n]));
-        continue;
-      }
-      plane = {{planes.m[0][n], planes.m[1][n], planes.m[2][n]}, planes.a[n]};
-      counts_.heights += planes.from_heights >> n & 1;
+    const CellBatch<T> batch{waiting_.centre + first, waiting_.reach + first, count};
+    plan_.kernel(plan_.task, batch, planes);
+    counts_.heights += count_bits(planes.from_heights);
+    for (int n = 0; n < count; ++n) {
+      *waiting_.plane[first + n] = {{planes.m[0][n], planes.m[1][n], planes.m[2][n]}, planes.a[n]};
     }
-    batch_.count = 0;
+    for (unsigned left = planes.gradient_free | planes.undone; left != 0; left &= left - 1) {
+      const int n = std::countr_zero(left);
+      UnitPlane& plane = *waiting_.plane[first + n];
+      if ((planes.undone >> n & 1) != 0) {
+        fit_alone(waiting_.cell[first + n], plane);
+      } else {
+        plane = gradient_free(fraction_of(*waiting_.centre[first + n]));
+      }
+    }
   }
 
   // Cells in memory between this one and the nearer end of the axis; negative beyond the ends.
   [[nodiscard]] std::int64_t margin(std::size_t axis, std::int64_t index) const {
     const AxisCells& cells = plan_.field.axes[axis];
     return std::min(index - cells.low, cells.high - 1 - index);
-  }
-
-  void add(const Pending& cell) {
-    const double fraction = fraction_of(*cell.centre);
-    if (fraction == 0.0 || fraction == 1.0) {
-      *cell.plane = UnitPlane::pure(fraction == 1.0);
-      return;
-    }
-    const int n = batch_.count++;
-    batch_.centre[n] = cell.centre;
-    batch_.reach[n] = cell.reach;
-    cells_[n] = cell.cell;
-    planes_[n] = cell.plane;
-    if (batch_.count == kBatch) {
-      flush();
-    }
   }
 
   UnitPlane gradient_free(double fraction) {
@@ -277,11 +285,7 @@ class PlaneFitter {
   const FitterPlan<T>& plan_;
   const NodeBits& nodes_;
   SourceCounts counts_;
-  Pending pending_[kPending];
-  int pending_count_ = 0;
-  CellBatch<T> batch_{};
-  Index3 cells_[kBatch];
-  UnitPlane* planes_[kBatch] = {};
+  Waiting waiting_{};
 };
 
 }  // namespace difmesh::detail

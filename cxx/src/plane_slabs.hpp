@@ -83,14 +83,20 @@ class PlaneSlabs {
     slab.flags.resize(rows * static_cast<std::size_t>(words_));
     slab.start.resize(rows + 1);
     slab.inner_planes = 0;
+    const bool is_inner = k > 1 && k < cells_.dims[2];
     std::int64_t count = 0;
     for (std::size_t j = 0; j < rows; ++j) {
       slab.start[j] = count;
-      count += flag_row(static_cast<std::int64_t>(j), k, slab);
+      const auto local = static_cast<std::int64_t>(j);
+      if (is_inner && local > 1 && local < cells_.dims[1]) {
+        count += flag_row(local, k, slab);
+      }
     }
     slab.start[rows] = count;
-    slab.planes.resize(static_cast<std::size_t>(count));
-    for (std::size_t j = 0; j < rows; ++j) {
+    if (slab.planes.size() < static_cast<std::size_t>(count)) {
+      slab.planes.resize(static_cast<std::size_t>(count + count / 2));
+    }
+    for (std::size_t j = 0; j < rows && count > 0; ++j) {
       if (slab.start[j] != slab.start[j + 1]) {
         fit_row(static_cast<std::int64_t>(j), k, slab);
       }
@@ -99,18 +105,15 @@ class PlaneSlabs {
     seconds_ += watch.lap();
   }
 
-  // Returns how many there are in the row.
+  // Of a row of inner cells. Returns how many there are.
   std::int64_t flag_row(std::int64_t j, std::int64_t k, Slab& slab) const {
-    if (!is_inner(j, k)) {
-      return 0;
-    }
     const NodeBits& nodes = grid_.nodes();
-    const EdgeEnds ends(nodes, j, k);
     const std::int64_t number = nodes.row_index(j, k);
     const bool has_outermost = !grid_.planes().is_empty(number);
-    if (ends.are_none() && !has_outermost) {
+    if (nodes.are_alike_around(number) && !has_outermost) {
       return 0;
     }
+    const EdgeEnds ends(nodes, j, k);
     std::uint64_t* const flags = slab.flags.data() + j * words_;
     std::int64_t count = 0;
     for (std::int64_t w = 0; w < words_; ++w) {

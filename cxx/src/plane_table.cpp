@@ -30,10 +30,14 @@ class Flagger {
     if (!cells_.is_row(j, k)) {
       return 0;
     }
-    const EdgeEnds ends(nodes_, j, k);
-    const bool is_layer = in_layer(1, j) || in_layer(2, k);
+    const bool is_outermost = cells_.is_outermost(j, k);
+    const bool is_layer = is_outermost && (in_layer(1, j) || in_layer(2, k));
     const bool has_open_ends = !is_layer && (open_[0][0] || open_[0][1]);
     const unsigned open_ends = has_open_ends ? interfacial_ends_of(j, k) : 0U;
+    if (!is_outermost && open_ends == 0 && nodes_.are_alike_around(nodes_.row_index(j, k))) {
+      return 0;
+    }
+    const EdgeEnds ends(nodes_, j, k);
     if (ends.are_none() && !is_layer && open_ends == 0) {
       return 0;
     }
@@ -41,7 +45,7 @@ class Flagger {
     const std::int64_t words = nodes_.words();
     if (ends.are_none()) {
       std::fill_n(row, words, 0);
-    } else if (cells_.is_outermost(j, k)) {
+    } else if (is_outermost) {
       for (std::int64_t w = 0; w < words; ++w) {
         row[w] = ends.word(w) & NodeBits::range(w, 1, cells_.last[0]);
       }
@@ -177,9 +181,14 @@ PlaneTable make_planes(const BlockField& field, const NodeBits& nodes,
     const Flagger<decltype(type)> flagger(field, nodes, row_ends,
                                           options.placement == Placement::plic);
     phases.run(0.05, nodes.rows(), grain, [&](std::int64_t begin, std::int64_t end) {
+      std::int64_t j = begin % row_length;
+      std::int64_t k = begin / row_length;
       for (std::int64_t row = begin; row < end; ++row) {
-        row_counts[static_cast<std::size_t>(row)] =
-            flagger.flag_row(row % row_length, row / row_length, flags);
+        row_counts[static_cast<std::size_t>(row)] = flagger.flag_row(j, k, flags);
+        if (++j == row_length) {
+          j = 0;
+          ++k;
+        }
       }
     });
   });
