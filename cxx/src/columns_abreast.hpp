@@ -84,7 +84,7 @@ template <class I>
 
 /// Heights of 3x8 columns, `across` apart and next to each other along x.
 struct HeightBlock {
-  double height[3][kBatch];
+  double height[3][kAbreast];
   unsigned inconsistent;  ///< bit per place along x: one of its three columns is
 
   /// Those of the columns about the middle one at a place along x, 1 to 6.
@@ -107,7 +107,7 @@ template <class T>
   typedef double Wide __attribute__((vector_size(kWidth * sizeof(double))));
   constexpr int kCells = 2 * kReach + 1;
   block.inconsistent = 0;
-  for (int place = 0; place < kBatch; place += kWidth) {
+  for (int place = 0; place < kAbreast; place += kWidth) {
     I wrong{};
     for (int row = 0; row < 3; ++row) {
       const T* const start = first + (row - 1) * across + place - kReach * along;

@@ -7,7 +7,7 @@
 namespace difmesh::detail {
 
 /// How many cells or edges a kernel takes at once.
-inline constexpr int kBatch = 8;
+inline constexpr int kBatch = 16;
 
 /// What the heights of a field of T go by, and how the field lies in memory.
 template <class T>
@@ -22,6 +22,7 @@ struct PlaneTask {
 /// Of CellBatch::reach: what follows the cell along x is in memory so far that columns across x can be read from the
 /// one before it on, eight abreast.
 inline constexpr unsigned kEightAbreast = 8;
+inline constexpr int kAbreast = 8;
 
 /// Cells, at least one, whose 3x3x3 neighbourhoods are in memory, and what follows these along x: rows are read four
 /// abreast.

@@ -5,6 +5,7 @@
 #include "columns_abreast.hpp"
 #include "height_columns.hpp"
 #include "kernels.hpp"
+#include "lane_pair.hpp"
 #include "normal_math.hpp"
 #include "plane_fit_math.hpp"
 #include "plane_math.hpp"
@@ -21,20 +22,29 @@ struct HeightLanes {
   double high[2][kBatch];
 };
 
+// Bits of the cells whose normals point along each axis, and of those among them with the material at the low end.
+struct Pointing {
+  unsigned along[3];
+  unsigned material_low[3];
+
+  [[gnu::always_inline]] void add(const Triple<Lanes>& normal, int first) {
+    const Lanes largest =
+        larger(larger(magnitude(normal.v[0]), magnitude(normal.v[1])), magnitude(normal.v[2]));
+    const Lanes limit = largest * (1.0 - kTie);
+    for (int axis = 0; axis < 3; ++axis) {
+      along[axis] |= bits_of(magnitude(normal.v[axis]) >= limit) << first;
+      material_low[axis] |= bits_of(normal.v[axis] > broadcast(0.0)) << first;
+    }
+  }
+};
+
 template <class T>
 [[gnu::always_inline]] inline void gather_heights(const PlaneTask<T>& task,
                                                   const CellBatch<T>& cells,
-                                                  const Triple<Lanes>& normal, PlaneBatch& planes,
+                                                  const Pointing& pointing, PlaneBatch& planes,
                                                   HeightLanes& lanes) {
-  const Lanes largest =
-      larger(larger(magnitude(normal.v[0]), magnitude(normal.v[1])), magnitude(normal.v[2]));
-  const Lanes limit = largest * (1.0 - kTie);
-  unsigned along[3];
-  unsigned material_low[3];
-  for (int axis = 0; axis < 3; ++axis) {
-    along[axis] = bits_of(magnitude(normal.v[axis]) >= limit);
-    material_low[axis] = bits_of(normal.v[axis] > broadcast(0.0));
-  }
+  const unsigned(&along)[3] = pointing.along;
+  const unsigned(&material_low)[3] = pointing.material_low;
   const unsigned ties = (along[0] & along[1]) | (along[1] & along[2]) | (along[2] & along[0]);
   unsigned left = ((1U << cells.count) - 1U) & ~planes.gradient_free;
   planes.undone = ties & left;
@@ -65,7 +75,8 @@ template <class T>
       const unsigned alike = left & along[axis] & (low ? material_low[axis] : ~material_low[axis]);
       for (int m = n + 1; m < cells.count; ++m) {
         const std::int64_t place = cells.centre[m] - centre;
-        const bool is_mate = place >= 0 && place < kBatch - 2 && (cells.reach[m] >> axis & 1) != 0;
+        const bool is_mate =
+            place >= 0 && place < kAbreast - 2 && (cells.reach[m] >> axis & 1) != 0;
         mates |= (is_mate ? alike : 0U) & 1U << m;
       }
     }
@@ -91,11 +102,15 @@ template <class T>
 }
 
 // Heights' normals in the lanes that have them.
-[[gnu::always_inline]] inline void take_heights(const HeightLanes& lanes, Triple<Lanes>& normal) {
-  const Lanes axis = load(lanes.axis);
-  const Lanes sense = load(lanes.sense);
-  const Lanes slope0 = -((load(lanes.high[0]) - load(lanes.low[0])) * 0.5);
-  const Lanes slope1 = -((load(lanes.high[1]) - load(lanes.low[1])) * 0.5);
+[[gnu::always_inline]] inline void take_heights(const HeightLanes& lanes, int first,
+                                                Triple<Lanes>& normal) {
+  const Lanes axis = load(lanes.axis + first);
+  const Lanes sense = load(lanes.sense + first);
+  const auto slope = [&](int t) __attribute__((always_inline)) {
+    return -((load(lanes.high[t] + first) - load(lanes.low[t] + first)) * 0.5);
+  };
+  const Lanes slope0 = slope(0);
+  const Lanes slope1 = slope(1);
   const LaneMask is_x = axis == 0.0;
   const LaneMask is_y = axis == 1.0;
   const LaneMask is_z = axis == 2.0;
@@ -114,7 +129,7 @@ template <class T>
 
 // The values at x - 1, x and x + 1 of eight cells, whose rows of four begin at x - 1.
 template <class V4>
-[[gnu::always_inline]] inline void transpose(const V4 (&row)[kBatch], Floats8 (&columns)[3]) {
+[[gnu::always_inline]] inline void transpose(const V4 (&row)[kLanes], Floats8 (&columns)[3]) {
   Floats8 two[4];
   for (int n = 0; n < 4; ++n) {
     two[n] = __builtin_shufflevector(row[n], row[n + 4], 0, 1, 2, 3, 4, 5, 6, 7);
@@ -129,18 +144,18 @@ template <class V4>
 }
 
 template <class T>
-[[gnu::always_inline]] inline void gather_row(const T* const (&row)[kBatch],
-                                              T (&columns)[3][kBatch]) {
+[[gnu::always_inline]] inline void gather_row(const T* const (&row)[kLanes],
+                                              T (&columns)[3][kLanes]) {
   if constexpr (sizeof(T) == sizeof(float) && kIsFloating<T>) {
-    Floats4 four[kBatch];
-    for (int n = 0; n < kBatch; ++n) {
+    Floats4 four[kLanes];
+    for (int n = 0; n < kLanes; ++n) {
       four[n] = load_elements<Floats4>(row[n] - 1);
     }
     Floats8 transposed[3];
     transpose(four, transposed);
     __builtin_memcpy(columns, transposed, sizeof columns);
   } else {
-    for (int n = 0; n < kBatch; ++n) {
+    for (int n = 0; n < kLanes; ++n) {
       for (int i = 0; i < 3; ++i) {
         columns[i][n] = row[n][i - 1];
       }
@@ -150,15 +165,20 @@ template <class T>
 
 template <class T>
 [[gnu::always_inline]] inline void gather_neighbours(const PlaneTask<T>& task,
-                                                     const CellBatch<T>& cells, Lanes (&c)[27]) {
+                                                     const CellBatch<T>& cells, int first,
+                                                     Lanes (&c)[27]) {
+  const T* centre[kLanes];
+  for (int n = 0; n < kLanes; ++n) {
+    // Lanes without a cell repeat the first.
+    centre[n] = cells.centre[first + n < cells.count ? first + n : first];
+  }
   for (int k = 0; k < 3; ++k) {
     for (int j = 0; j < 3; ++j) {
-      const T* row[kBatch];
-      for (int n = 0; n < kBatch; ++n) {
-        row[n] = cells.centre[n < cells.count ? n : 0] + (k - 1) * task.strides[2] +
-                 (j - 1) * task.strides[1];
+      const T* row[kLanes];
+      for (int n = 0; n < kLanes; ++n) {
+        row[n] = centre[n] + (k - 1) * task.strides[2] + (j - 1) * task.strides[1];
       }
-      alignas(64) T columns[3][kBatch];
+      alignas(64) T columns[3][kLanes];
       gather_row(row, columns);
       for (int i = 0; i < 3; ++i) {
         c[9 * k + 3 * j + i] = lanes_of_fractions(columns[i]);
@@ -170,91 +190,124 @@ template <class T>
 template <class T>
 void fit_planes(const PlaneTask<T>& task, const CellBatch<T>& cells, PlaneBatch& planes) {
   constexpr double kAllThere[3][3] = {{1.0, 1.0, 1.0}, {1.0, 1.0, 1.0}, {1.0, 1.0, 1.0}};
-  Lanes c[27];
-  gather_neighbours(task, cells, c);
-  Triple<Lanes> normal = youngs(c);
-  const Lanes size = norm1(normal);
-  planes.gradient_free = bits_of(size < broadcast(kTie)) & ((1U << cells.count) - 1U);
+  const int lanes = (cells.count + kLanes - 1) / kLanes * kLanes;
+  alignas(64) double fraction[kBatch];
+  Pointing pointing{};
+  planes.gradient_free = 0;
+  for (int first = 0; first < lanes; first += kLanes) {
+    Lanes c[27];
+    gather_neighbours(task, cells, first, c);
+    store(c[13], fraction + first);
+    Triple<Lanes> normal = youngs(c);
+    const Lanes size = norm1(normal);
+    planes.gradient_free |= bits_of(size < broadcast(kTie)) << first;
+    normal = scaled(normal, 1.0 / size);
+    if (task.centred_columns) {
+      normal = mixed_normal(c, kAllThere, normal).m;
+    }
+    pointing.add(normal, first);
+    for (int t = 0; t < 3; ++t) {
+      store(normal.v[t], planes.m[t] + first);
+    }
+  }
+  planes.gradient_free &= (1U << cells.count) - 1U;
   planes.from_heights = 0;
   planes.undone = 0;
-  normal = scaled(normal, 1.0 / size);
-  if (task.centred_columns) {
-    normal = mixed_normal(c, kAllThere, normal).m;
-  }
   if (task.heights) {
-    HeightLanes lanes;
-    for (int n = 0; n < kBatch; ++n) {
-      lanes.axis[n] = 3.0;
-      lanes.sense[n] = 1.0;
-      lanes.low[0][n] = lanes.low[1][n] = lanes.high[0][n] = lanes.high[1][n] = 0.0;
+    HeightLanes heights;
+    for (int n = 0; n < lanes; ++n) {
+      heights.axis[n] = 3.0;
+      heights.sense[n] = 1.0;
+      heights.low[0][n] = heights.low[1][n] = heights.high[0][n] = heights.high[1][n] = 0.0;
     }
-    gather_heights(task, cells, normal, planes, lanes);
-    if (planes.from_heights != 0) {
-      take_heights(lanes, normal);
+    gather_heights(task, cells, pointing, planes, heights);
+    for (int first = 0; first < lanes && planes.from_heights != 0; first += kLanes) {
+      Triple<Lanes> normal{
+          {load(planes.m[0] + first), load(planes.m[1] + first), load(planes.m[2] + first)}};
+      take_heights(heights, first, normal);
+      for (int t = 0; t < 3; ++t) {
+        store(normal.v[t], planes.m[t] + first);
+      }
     }
   }
-  for (int t = 0; t < 3; ++t) {
-    store(normal.v[t], planes.m[t]);
+  // What is past the last cell may hold anything, and would cost steps.
+  for (int n = lanes; n < (lanes + kChains - 1) / kChains * kChains; ++n) {
+    for (double(&component)[kBatch] : planes.m) {
+      component[n] = component[0];
+    }
+    fraction[n] = fraction[0];
   }
-  store(offset_of_share(sorted(normal.v[0], normal.v[1], normal.v[2]), c[13]), planes.a);
+  for (int first = 0; first < lanes; first += kChains) {
+    const auto component = [&](int t) __attribute__((always_inline)) {
+      return load_lanes<Chains>(planes.m[t] + first);
+    };
+    store(offset_of_share(sorted(component(0), component(1), component(2)),
+                          load_lanes<Chains>(fraction + first)),
+          planes.a + first);
+  }
 }
 
-// Eight planes as EdgePlane of window.hpp has them.
+// Planes as EdgePlane of window.hpp has them.
 struct EdgePlanes {
-  Lanes along, across0, across1, a;
-  LaneMask is_pure;
+  Chains along, across0, across1, a;
+  Mask<Chains> is_pure;
 };
 
-[[gnu::always_inline]] inline EdgePlanes edge_planes(const void* const (&plane)[kBatch],
-                                                     const Lanes& axis, const Lanes& sense) {
-  alignas(64) double columns[4][kBatch];
-  for (int n = 0; n < kBatch; ++n) {
+[[gnu::always_inline]] inline EdgePlanes edge_planes(const void* const* plane, const Chains& axis,
+                                                     const Chains& sense) {
+  alignas(64) double columns[4][kChains];
+  for (int n = 0; n < kChains; ++n) {
     double values[4];
     __builtin_memcpy(values, plane[n], sizeof values);
     for (int t = 0; t < 4; ++t) {
       columns[t][n] = values[t];
     }
   }
-  const Lanes x = load(columns[0]);
-  const Lanes y = load(columns[1]);
-  const Lanes z = load(columns[2]);
-  const LaneMask is_x = axis == 0.0;
-  const LaneMask is_y = axis == 1.0;
-  const Lanes zero = broadcast(0.0);
+  const Chains x = load_lanes<Chains>(columns[0]);
+  const Chains y = load_lanes<Chains>(columns[1]);
+  const Chains z = load_lanes<Chains>(columns[2]);
+  const Mask<Chains> is_x = axis == 0.0;
+  const Mask<Chains> is_y = axis == 1.0;
+  const Chains zero = constant<Chains>(0.0);
   EdgePlanes planes;
-  planes.a = load(columns[3]);
+  planes.a = load_lanes<Chains>(columns[3]);
   planes.across0 = select(is_x, y, select(is_y, z, x));
   planes.across1 = select(is_x, z, select(is_y, x, y));
-  const Lanes along = select(is_x, x, select(is_y, y, z)) * sense;
-  const LaneMask has_none = (x == zero) & (y == zero) & (z == zero);
-  planes.is_pure = has_none & (magnitude(planes.a) >= broadcast(0.5));
+  const Chains along = select(is_x, x, select(is_y, y, z)) * sense;
+  const Mask<Chains> has_none = (x == zero) & (y == zero) & (z == zero);
+  planes.is_pure = has_none & (magnitude(planes.a) >= constant<Chains>(0.5));
   // No gradient: the normal runs along the edge, towards the outer cell.
-  planes.along = select(planes.is_pure, zero, select(has_none, broadcast(-1.0), along));
+  planes.along = select(planes.is_pure, zero, select(has_none, constant<Chains>(-1.0), along));
   return planes;
 }
 
 void solve_windows(WindowBatch& batch) {
-  const void* ends[2][kBatch];
-  for (int n = 0; n < kBatch; ++n) {
-    const bool upper_inside = batch.sense[n] > 0.0;
-    ends[0][n] = upper_inside ? batch.lower[n] : batch.upper[n];
-    ends[1][n] = upper_inside ? batch.upper[n] : batch.lower[n];
+  batch.undone = 0;
+  for (int first = 0; first < batch.count; first += kChains) {
+    const void* ends[2][kChains];
+    for (int n = 0; n < kChains; ++n) {
+      const bool upper_inside = batch.sense[first + n] > 0.0;
+      ends[0][n] = upper_inside ? batch.lower[first + n] : batch.upper[first + n];
+      ends[1][n] = upper_inside ? batch.upper[first + n] : batch.lower[first + n];
+    }
+    const Chains axis = load_lanes<Chains>(batch.axis + first);
+    const Chains sense = load_lanes<Chains>(batch.sense + first);
+    const EdgePlanes outside = edge_planes(ends[0], axis, sense);
+    const EdgePlanes inside = edge_planes(ends[1], axis, sense);
+    const auto prepared = [](const EdgePlanes& of) __attribute__((always_inline)) {
+      return window_plane(of.along, of.across0, of.across1, of.a);
+    };
+    const WindowPlane<Chains> outer = prepared(outside);
+    const WindowPlane<Chains> inner = prepared(inside);
+    const Mask<Chains> is_done = surely_monotone(outer, inner) | outside.is_pure | inside.is_pure;
+    batch.undone |= bits_of(opposite(is_done)) << first;
+    const Chains zero = constant<Chains>(0.0);
+    const NewtonRoot<Chains> root =
+        newton(outer, inner, zero, constant<Chains>(1.0), plane_crossing(outer, inner));
+    store(select(sense > zero, root.mu, 1.0 - root.mu), batch.share + first);
+    store(root.steps, batch.steps + first);
   }
-  const Lanes axis = load(batch.axis);
-  const Lanes sense = load(batch.sense);
-  const EdgePlanes outside = edge_planes(ends[0], axis, sense);
-  const EdgePlanes inside = edge_planes(ends[1], axis, sense);
-  const auto prepared = [](const EdgePlanes& of) __attribute__((always_inline)) {
-    return window_plane(of.along, of.across0, of.across1, of.a);
-  };
-  const WindowPlane<Lanes> outer = prepared(outside);
-  const WindowPlane<Lanes> inner = prepared(inside);
-  const unsigned there = batch.count == kBatch ? 0xffU : (1U << batch.count) - 1U;
-  batch.undone = ~bits_of(surely_monotone(outer, inner) | outside.is_pure | inside.is_pure) & there;
-  const NewtonRoot<Lanes> root =
-      newton(outer, inner, broadcast(0.0), broadcast(1.0), plane_crossing(outer, inner));
-  store(select(sense > broadcast(0.0), root.mu, 1.0 - root.mu), batch.share);
-  store(root.steps, batch.steps);
+  batch.undone &= (1U << batch.count) - 1U;
 }
 
 void fit_plane_to_neighbours(FitTask& task) {

@@ -129,8 +129,10 @@ template <class R>
 [[gnu::always_inline]] inline R constant(double value) {
   if constexpr (sizeof(R) == sizeof(double)) {
     return value;
-  } else {
+  } else if constexpr (sizeof(R) == sizeof(Lanes)) {
     return broadcast(value);
+  } else {
+    return {broadcast(value), broadcast(value)};
   }
 }
 

@@ -118,7 +118,7 @@ class PlaneFitter {
           continue;
         }
         const unsigned reach = (from_side >= kReach ? 1U : 0U) | across |
-                               (i + kBatch - 2 < field.axes[0].high ? kEightAbreast : 0U);
+                               (i + kAbreast - 2 < field.axes[0].high ? kEightAbreast : 0U);
         const T* const centre = row + (i - field.axes[0].low);
         if (last_line == nullptr || centre - last_line >= kLine) {
           last_line = centre;
