@@ -83,13 +83,21 @@ template <class R>
                 select(alpha < m.middle, wedge, upper_corner_fraction(m, alpha)));
 }
 
-/// Derivative of upper_corner_fraction by alpha, where no column is cut.
+/// Derivatives of upper_corner_fraction by alpha, where no column is cut.
 template <class R>
-[[gnu::always_inline]] inline R corner_area(const Sorted<R>& m, const R& alpha) {
+struct CornerSlopes {
+  R first;
+  R second;
+};
+
+template <class R>
+[[gnu::always_inline]] inline CornerSlopes<R> corner_slopes(const Sorted<R>& m, const R& alpha) {
   const Excess<R> past = excess_past(m, alpha);
-  const R cut =
-      past.middle * m.inverse_small * past.middle + past.large * m.inverse_small * past.large;
-  return (alpha - m.small * 0.5 - cut * 0.5) * m.inverse_middle * m.inverse_large;
+  const R middle = past.middle * m.inverse_small;
+  const R large = past.large * m.inverse_small;
+  const R cut = middle * past.middle + large * past.large;
+  const R scale = m.inverse_middle * m.inverse_large;
+  return {(alpha - m.small * 0.5 - cut * 0.5) * scale, (1.0 - middle - large) * scale};
 }
 
 /// Share of the unit cube where m·u <= a. m = 0: all or nothing, by the sign of a.
@@ -103,24 +111,43 @@ template <class R>
 }
 
 // The range where the cut is a polygon of four to six corners has no inverse free of cancellation.
-// upper_corner_fraction is smooth and increasing there, so a few of Newton's steps from the chord do,
-// within a bracket that closes where rounding would throw them about.
+// upper_corner_fraction is smooth and increasing there: two of Halley's steps do, from the cubic that has its values and
+// slopes at both ends, within a bracket that closes where rounding would throw them about.
 template <class R>
-[[gnu::always_inline]] inline R solve_corner_distance(const Sorted<R>& m, const R& share, R low,
-                                                      R high, const Mask<R>& wanted) {
-  const R at_low = upper_corner_fraction(m, low);
-  const R at_high = upper_corner_fraction(m, high);
-  Mask<R> done = opposite(wanted) | (share >= at_high) | opposite(at_low < at_high);
-  const R lost = (high - low) * 1e-9;
+[[gnu::always_inline]] inline R solve_corner_distance(const Sorted<R>& m, const R& share,
+                                                      const R& share_at_middle,
+                                                      const Mask<R>& wanted) {
+  const R zero = constant<R>(0.0);
+  const R two = m.small + m.middle;
+  const R half = m.sum() * 0.5;
+  R low = m.middle;
+  R high = smaller(two, half);
+  const R width = high - low;
+  const R rise = select(two <= m.large, two * m.inverse_large * 0.5, constant<R>(0.5)) -
+                 share_at_middle;
+  const R above_low = larger(share - share_at_middle, zero);
+  Mask<R> done = opposite(wanted) | (above_low >= rise) | opposite(rise > zero);
   R result = high;
-  R alpha = low + (high - low) * larger(share - at_low, constant<R>(0.0)) / (at_high - at_low);
+  // The cubic, alpha as a function of the share, with a single division.
+  const R slope_low = (m.middle - m.small * 0.5) * m.inverse_middle * m.inverse_large * width;
+  const R slope_high = corner_slopes(m, high).first * width;
+  const R inverse = 1.0 / (rise * slope_low * slope_high);
+  const R t = above_low * slope_low * slope_high * inverse;
+  const R start = rise * rise * slope_high * inverse;
+  const R end = rise * rise * slope_low * inverse;
+  R alpha = low + width * (t * (start + t * (3.0 - 2.0 * start - end + t * (start + end - 2.0))));
+  alpha = clamped(alpha, low, high);
+  const R settled = width * 1e-5;
   for (int step = 0; step < 32 && any(opposite(done)); ++step) {
     const R excess = upper_corner_fraction(m, alpha) - share;
-    const R next = clamped(alpha - excess / corner_area(m, alpha), low, high);
+    const CornerSlopes<R> slopes = corner_slopes(m, alpha);
+    const R next = clamped(alpha - (2.0 * excess * slopes.first) /
+                                       (2.0 * slopes.first * slopes.first - excess * slopes.second),
+                           low, high);
     result = select(done, result, next);
-    // Steps shrink quadratically: after one this small the next would be lost in rounding.
-    done = done | (magnitude(next - alpha) <= lost);
-    const Mask<R> above = excess > constant<R>(0.0);
+    // Steps shrink to the third power: after one this small the next would be lost in rounding.
+    done = done | (magnitude(next - alpha) <= settled);
+    const Mask<R> above = excess > zero;
     high = select(above, alpha, high);
     low = select(above, low, alpha);
     alpha = next;
@@ -141,9 +168,7 @@ template <class R>
   R result = share * m.large + two * 0.5;
   const Mask<R> elsewhere = opposite(in_corner | in_wedge | in_column);
   if (any(elsewhere)) {
-    result = select(
-        elsewhere,
-        solve_corner_distance(m, share, m.middle, smaller(two, m.sum() * 0.5), elsewhere), result);
+    result = select(elsewhere, solve_corner_distance(m, share, at_middle, elsewhere), result);
   }
   if (any(in_wedge)) {
     const R product = 2.0 * m.middle * m.large * (share - at_small);
