@@ -41,25 +41,29 @@ class Flagger {
     if (ends.are_none() && !is_layer && open_ends == 0) {
       return 0;
     }
+    const unsigned at_ends = is_outermost ? 0U : outermost_ends(ends);
+    if (!is_outermost && (at_ends | open_ends) == 0) {
+      return 0;
+    }
     std::uint64_t* const row = flags.row(j, k);
     const std::int64_t words = nodes_.words();
-    if (ends.are_none()) {
-      std::fill_n(row, words, 0);
-    } else if (is_outermost) {
+    std::fill_n(row, words, 0);
+    if (is_outermost && !ends.are_none()) {
       for (std::int64_t w = 0; w < words; ++w) {
         row[w] = ends.word(w) & NodeBits::range(w, 1, cells_.last[0]);
       }
-    } else {
-      flag_outermost(ends, row);
     }
     if (is_layer) {
       flag_layer_row(j, k, row);
     }
-    if ((open_ends & 1) != 0) {
+    if (((open_ends | at_ends) & 1) != 0) {
       set(row, 1);
     }
-    if ((open_ends & 2) != 0) {
+    if (((open_ends | at_ends) & 2) != 0) {
       set(row, cells_.dims[0]);
+    }
+    if ((at_ends & 4) != 0) {
+      set(row, cells_.last[0]);
     }
     std::int64_t count = 0;
     for (std::int64_t w = 0; w < words; ++w) {
@@ -93,12 +97,13 @@ class Flagger {
                        first[(beyond - field_.block.offset[0]) * field_.view.strides[0]]);
     }
   }
-  // Of a row between inner ones.
-  void flag_outermost(const EdgeEnds& ends, std::uint64_t* row) const {
-    std::fill_n(row, nodes_.words(), 0);
-    for (const std::int64_t i : {std::int64_t{1}, cells_.dims[0], cells_.last[0]}) {
-      row[i / 64] |= ends.word(i / 64) & std::uint64_t{1} << (i % 64);
-    }
+  // Which outermost cells of a row of inner ones are ends of crossed edges: bit 0 the first, bit 1 that at dims, bit 2
+  // the last.
+  [[nodiscard]] unsigned outermost_ends(const EdgeEnds& ends) const {
+    const auto is_end = [&](std::int64_t i) {
+      return static_cast<unsigned>(ends.word(i / 64) >> (i % 64) & 1);
+    };
+    return is_end(1) | is_end(cells_.dims[0]) << 1 | is_end(cells_.last[0]) << 2;
   }
   // Which cells at open sides in x are interfacial: bit 0 the first, bit 1 the last.
   [[nodiscard]] unsigned interfacial_ends_of(std::int64_t j, std::int64_t k) const {

@@ -22,13 +22,10 @@ struct EdgeCounts {
   std::int64_t non_monotone = 0;
   bool on_end = false;
 
-  void add(int steps_of_one) {
-    ++solved;
-    steps += steps_of_one;
-    most_steps = std::max<std::int64_t>(most_steps, steps_of_one);
-  }
   void add(const WindowRoot& root) {
-    add(root.steps);
+    ++solved;
+    steps += root.steps;
+    most_steps = std::max<std::int64_t>(most_steps, root.steps);
     non_monotone += root.non_monotone ? 1 : 0;
   }
 };
@@ -48,6 +45,7 @@ class VertexPlacer {
       : grid_(grid), options_(options), with_planes_(options.placement == Placement::plic) {
     constexpr double kFar = std::numeric_limits<double>::infinity();
     for (std::size_t axis = 0; axis < 3; ++axis) {
+      first_index_[axis] = static_cast<double>(grid.field().block.offset[axis] - 1);
       const std::int64_t last = grid.nodes().last()[axis];
       for (std::int64_t local = 0; local <= last; ++local) {
         const double node = grid.coordinate(axis, local);
@@ -81,10 +79,9 @@ class VertexPlacer {
   // The same for edges from a cell's centre to another's.
   [[nodiscard]] Vec3 position_between_cells(const Index3& lower, std::size_t axis,
                                             double share) const {
-    const BlockField& field = grid_.field();
-    const auto index = static_cast<double>(lower[axis] - 1 + field.block.offset[axis]);
-    return at(lower, axis,
-              field.grid.origin[axis] + (index + 0.5 + share) * field.grid.spacing[axis]);
+    const Grid& grid = grid_.field().grid;
+    const double index = static_cast<double>(lower[axis]) + first_index_[axis];
+    return at(lower, axis, grid.origin[axis] + (index + 0.5 + share) * grid.spacing[axis]);
   }
 
   [[nodiscard]] Vec3 normal(const DualEdge& edge, double share) const {
@@ -260,6 +257,7 @@ class VertexPlacer {
   const DualGrid& grid_;
   const Options& options_;
   bool with_planes_;
+  Vec3 first_index_{};                         // of local index 0 in the whole grid
   std::array<std::vector<double>, 3> after_;   // the next number above each node's coordinate
   std::array<std::vector<double>, 3> before_;  // and below
 };

@@ -70,6 +70,10 @@ class RowPlacer {
       }
       const std::uint64_t inside = nodes.row(j, k)[w];
       if (is_plain_row && (word.any() & ~NodeBits::range(w, plain_from, dims[0] - 1)) == 0) {
+        if (solves_windows_) {
+          vertex = queue_word(word, {64 * w, j, k}, inside, vertex);
+          continue;
+        }
         for_each_edge(word, [&](int bit, std::size_t axis) {
           place_own({64 * w + bit, j, k}, axis, (inside >> bit & 1) == 0, bit, row, vertex++);
         });
@@ -139,6 +143,31 @@ class RowPlacer {
   // True for the outermost nodes: an edge across the axis there lies where the mesh ends.
   [[nodiscard]] bool is_end(std::size_t axis, std::int64_t local) const {
     return local == grid_.nodes().first()[axis] || local == grid_.nodes().last()[axis];
+  }
+
+  // The edges of a word, all between cells of the block; returns the number of the vertex after theirs. `first` is the
+  // node at bit 0.
+  std::size_t queue_word(const EdgeWord& word, const Index3& first, std::uint64_t inside,
+                         std::size_t vertex) {
+    const auto& [here, next_j, next_k] = *planes_;
+    for (std::uint64_t left = word.any(); left != 0; left &= left - 1) {
+      const int bit = std::countr_zero(left);
+      const std::uint64_t mask = left & -left;
+      const Index3 node{first[0] + bit, first[1], first[2]};
+      const bool upper_inside = (inside & mask) == 0;
+      const UnitPlane& lower = here.at(bit);
+      if ((word.x & mask) != 0) {
+        const UnitPlane& upper = bit < 63 ? (&lower)[1] : here.first_of_next();
+        queue_.add(node, 0, upper_inside, vertex++, lower, upper);
+      }
+      if ((word.y & mask) != 0) {
+        queue_.add(node, 1, upper_inside, vertex++, lower, next_j.at(bit));
+      }
+      if ((word.z & mask) != 0) {
+        queue_.add(node, 2, upper_inside, vertex++, lower, next_k.at(bit));
+      }
+    }
+    return vertex;
   }
 
   // An edge between cells of the block; `row` is that of its lower cell.

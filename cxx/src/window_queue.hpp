@@ -1,6 +1,7 @@
 #pragma once
 // Edges between cells of a block, whose windows are solved in batches.
 
+#include <algorithm>
 #include <cstdint>
 
 #include "difmesh/mesh.hpp"
@@ -79,16 +80,23 @@ class WindowQueue {
     if (batch_.undone != 0) {
       solve_alone();
     }
+    int most_steps = 0;
     for (int n = 0; n < batch_.count; ++n) {
-      counts_.add(static_cast<int>(batch_.steps[n]));
+      const auto steps = static_cast<int>(batch_.steps[n]);
+      counts_.steps += steps;
+      most_steps = std::max(most_steps, steps);
       const Entry& edge = edges_[n];
       const double share = placer_.cleared(batch_.share[n]);
+      batch_.share[n] = share;
       writer_.write(edge.number, edge.lower, edge.axis,
                     placer_.position_between_cells(edge.lower, edge.axis, share));
-      if (writer_.with_normals()) {
-        writer_.write_normal(edge.number, placer_.normal(edge.axis, batch_.sense[n] > 0.0,
-                                                         lower_plane(n), upper_plane(n), share));
-      }
+    }
+    counts_.solved += batch_.count;
+    counts_.most_steps = std::max<std::int64_t>(counts_.most_steps, most_steps);
+    for (int n = 0; writer_.with_normals() && n < batch_.count; ++n) {
+      writer_.write_normal(edges_[n].number,
+                           placer_.normal(edges_[n].axis, batch_.sense[n] > 0.0, lower_plane(n),
+                                          upper_plane(n), batch_.share[n]));
     }
     batch_.count = 0;
   }
