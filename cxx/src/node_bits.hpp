@@ -163,7 +163,7 @@ class EdgeRow {
         next_j_(j < nodes.last()[1] ? nodes.row(j + 1, k) : here_),
         next_k_(k < nodes.last()[2] ? nodes.row(j, k + 1) : here_) {}
 
-  [[nodiscard]] EdgeWord word(std::int64_t w) const {
+  [[nodiscard, gnu::always_inline]] EdgeWord word(std::int64_t w) const {
     const std::uint64_t bits = here_[w];
     const std::uint64_t carry = w + 1 < nodes_->words() ? here_[w + 1] << 63 : 0;
     const std::uint64_t x = bits ^ (bits >> 1 | carry);

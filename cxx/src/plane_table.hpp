@@ -63,7 +63,7 @@ class EdgeEnds {
 
   /// True if there are none, as far as that is known without a look at the bits.
   [[nodiscard]] bool are_none() const { return are_none_; }
-  [[nodiscard]] std::uint64_t word(std::int64_t w) const {
+  [[nodiscard, gnu::always_inline]] std::uint64_t word(std::int64_t w) const {
     const std::uint64_t here = here_[w];
     const std::uint64_t across =
         ((here ^ south_[w]) | (here ^ north_[w])) | ((here ^ below_[w]) | (here ^ above_[w]));
