@@ -264,19 +264,18 @@ Placed place_rows(const VertexPlacer& placer, const std::vector<std::int64_t>& r
   return result;
 }
 
-// Slabs [begin, end) of rows.
+// The rows of a tile, slab by slab.
 template <class T>
-Placed place_slabs(const VertexPlacer& placer, const FitterPlan<T>& plan,
-                   const std::vector<std::int64_t>& row_start, std::int64_t begin, std::int64_t end,
-                   Mesh& mesh) {
+Placed place_tile(const VertexPlacer& placer, const FitterPlan<T>& plan,
+                  const std::vector<std::int64_t>& row_start, const RowTile& tile, Mesh& mesh) {
   const NodeBits& nodes = placer.grid().nodes();
   Stopwatch watch;
   RowPlacer<T> row_placer(placer, mesh);
-  PlaneSlabs<T> slabs(plan, placer.grid());
+  PlaneSlabs<T> slabs(plan, placer.grid(), tile);
   Placed result;
-  for (std::int64_t k = begin; k < end; ++k) {
+  for (std::int64_t k = tile.first[1]; k < tile.end[1]; ++k) {
     slabs.move_to(k);
-    for (std::int64_t j = 0; j <= nodes.last()[1]; ++j) {
+    for (std::int64_t j = tile.first[0]; j < tile.end[0]; ++j) {
       const auto row = static_cast<std::size_t>(nodes.row_index(j, k));
       if (row_start[row] == row_start[row + 1]) {
         continue;
@@ -295,15 +294,55 @@ Placed place_slabs(const VertexPlacer& placer, const FitterPlan<T>& plan,
   return result;
 }
 
-// Slabs that a thread takes at once. Each portion computes the planes of the slab after it once more, so there are few:
-// enough to keep the threads busy to the end, and to report progress between them.
-std::int64_t slabs_per_portion(const NodeBits& nodes, const Phases& phases) {
-  constexpr std::int64_t kPortionsPerThread = 8;
-  constexpr std::int64_t kFewest = 4;
-  const std::int64_t slabs = nodes.last()[2] + 1;
-  const std::int64_t portions = phases.threads() == 1 ? 1 : kPortionsPerThread * phases.threads();
-  const std::int64_t wanted = std::max(portions, phases.least_portions());
-  return std::max(kFewest, (slabs + wanted - 1) / wanted);
+// Vertices by row in y (axis 0) or by slab (axis 1) of nodes.
+std::vector<std::int64_t> histogram(const NodeBits& nodes,
+                                    const std::vector<std::int64_t>& row_start, std::size_t axis) {
+  std::vector<std::int64_t> vertices(static_cast<std::size_t>(nodes.last()[axis + 1]) + 1, 0);
+  for (std::int64_t k = 0; k <= nodes.last()[2]; ++k) {
+    for (std::int64_t j = 0; j <= nodes.last()[1]; ++j) {
+      const auto row = static_cast<std::size_t>(nodes.row_index(j, k));
+      vertices[static_cast<std::size_t>(axis == 0 ? j : k)] += row_start[row + 1] - row_start[row];
+    }
+  }
+  return vertices;
+}
+
+// Tiles of about as many vertices each: slabs, or rows in y where the surface lies in few slabs. Each tile computes the
+// planes of the rows after it once more, so there are few: enough to keep the threads busy to the end, and to report
+// progress between them.
+std::vector<RowTile> make_tiles(const NodeBits& nodes, const std::vector<std::int64_t>& row_start,
+                                const Phases& phases) {
+  constexpr std::int64_t kTilesPerThread = 6;
+  const std::int64_t wanted = std::max<std::int64_t>(
+      phases.threads() == 1 ? 1 : kTilesPerThread * phases.threads(), phases.least_portions());
+  const RowTile all{{0, 0}, {nodes.last()[1] + 1, nodes.last()[2] + 1}};
+  if (wanted == 1) {
+    return {all};
+  }
+  std::size_t axis = 1;
+  std::vector<std::int64_t> vertices = histogram(nodes, row_start, axis);
+  std::int64_t most = *std::max_element(vertices.begin(), vertices.end());
+  const std::int64_t total = row_start.back();
+  if (most > total / wanted) {
+    std::vector<std::int64_t> by_row = histogram(nodes, row_start, 0);
+    if (*std::max_element(by_row.begin(), by_row.end()) < most) {
+      axis = 0;
+      vertices = std::move(by_row);
+    }
+  }
+  std::vector<RowTile> tiles;
+  RowTile tile = all;
+  std::int64_t before = 0;
+  for (std::size_t n = 0; n < vertices.size(); ++n) {
+    before += vertices[n];
+    const bool is_last = n + 1 == vertices.size();
+    if (is_last || before * wanted >= total * static_cast<std::int64_t>(tiles.size() + 1)) {
+      tile.end[axis] = is_last ? all.end[axis] : static_cast<std::int64_t>(n) + 1;
+      tiles.push_back(tile);
+      tile.first[axis] = tile.end[axis];
+    }
+  }
+  return tiles;
 }
 
 }  // namespace
@@ -320,9 +359,10 @@ void place_vertices(const DualGrid& grid, const Options& options,
   const NodeBits& nodes = grid.nodes();
   const VertexPlacer placer(grid, options);
   const bool with_planes = options.placement == Placement::plic || options.vertex_normals;
-  const std::int64_t count = with_planes ? nodes.last()[2] + 1 : nodes.rows();
-  const std::int64_t grain =
-      with_planes ? slabs_per_portion(nodes, phases) : rows_per_portion(nodes);
+  const std::vector<RowTile> tiles =
+      with_planes ? make_tiles(nodes, row_start, phases) : std::vector<RowTile>{};
+  const std::int64_t count = with_planes ? static_cast<std::int64_t>(tiles.size()) : nodes.rows();
+  const std::int64_t grain = with_planes ? 1 : rows_per_portion(nodes);
   std::vector<Placed> portions(static_cast<std::size_t>((count + grain - 1) / grain));
   Stopwatch watch;
   with_scalar(grid.field().view.type, [&](auto type) {
@@ -330,8 +370,9 @@ void place_vertices(const DualGrid& grid, const Options& options,
     const FitterPlan<T> plan(grid.field(), options.normals);
     phases.run(0.62, count, grain, [&](std::int64_t begin, std::int64_t end) {
       portions[static_cast<std::size_t>(begin / grain)] =
-          with_planes ? place_slabs<T>(placer, plan, row_start, begin, end, mesh)
-                      : place_rows<T>(placer, row_start, begin, end, mesh);
+          with_planes
+              ? place_tile<T>(placer, plan, row_start, tiles[static_cast<std::size_t>(begin)], mesh)
+              : place_rows<T>(placer, row_start, begin, end, mesh);
     });
   });
   Placed all;
