@@ -82,6 +82,24 @@ OwnedField waves(const Index3& dims) {
   return field;
 }
 
+// A wavy film across the domain: all of it in a few layers of cells across the axis.
+OwnedField film(const Index3& dims, std::size_t axis) {
+  OwnedField field(dims);
+  const double middle = 0.5 * static_cast<double>(dims[axis]);
+  for (std::int64_t k = 0; k < dims[2]; ++k) {
+    for (std::int64_t j = 0; j < dims[1]; ++j) {
+      for (std::int64_t i = 0; i < dims[0]; ++i) {
+        const Index3 cell{i, j, k};
+        const auto x = static_cast<double>(cell[(axis + 1) % 3]);
+        const auto y = static_cast<double>(cell[(axis + 2) % 3]);
+        const double level = middle + 0.4 * std::sin(0.3 * x) * std::cos(0.4 * y);
+        field.at(i, j, k) = std::clamp(level - static_cast<double>(cell[axis]), 0.0, 1.0);
+      }
+    }
+  }
+  return field;
+}
+
 struct Case {
   std::string name;
   OwnedField field;
@@ -93,6 +111,8 @@ std::vector<Case> cases() {
           {"waves", waves({131, 24, 25})},
           {"noise", test::white_noise({33, 19, 12}, 5)},
           {"noise of halves", test::half_noise({66, 9, 8}, 6)},
+          {"lying film", film({35, 37, 21}, 2)},
+          {"standing film", film({35, 21, 37}, 1)},
           {"thin", test::white_noise({40, 1, 3}, 7)}};
 }
 
@@ -119,6 +139,8 @@ void check_all_sets(const Case& each, const Options& options) {
       detail::use_instructions(set);
       Options with = options;
       with.threads = threads;
+      // Where progress is asked for, one thread takes the field in portions too.
+      with.progress = results.size() % 4 == 2 ? [](double) { return true; } : Progress{};
       results.push_back(reconstruct(FieldView::x_fastest(values.data(), grid.dims), grid, with));
       CAPTURE(static_cast<int>(set));
       CAPTURE(threads);
