@@ -47,7 +47,7 @@ struct PlaneBatch {
 struct WindowBatch {
   const void* lower[kBatch];  ///< of UnitPlane: m, then a
   const void* upper[kBatch];
-  double axis[kBatch];   ///< 0, 1 or 2
+  std::uint8_t axis[kBatch];
   double sense[kBatch];  ///< 1 where the upper end is inside, else -1
   int count;
   double share[kBatch];  ///< of the way from the lower end to the upper one

@@ -253,28 +253,45 @@ struct EdgePlanes {
   Mask<Chains> is_pure;
 };
 
-[[gnu::always_inline]] inline EdgePlanes edge_planes(const void* const* plane, const Chains& axis,
+[[gnu::always_inline]] inline EdgePlanes edge_planes(const void* const* plane,
+                                                     const std::uint8_t* axis,
                                                      const Chains& sense) {
+  // Of m, from the edge's own axis on, and then a. Where vectors are wide, their lanes are exchanged faster than
+  // addresses are found.
+  constexpr std::uint8_t kNext[3][4] = {{0, 1, 2, 3}, {1, 2, 0, 3}, {2, 0, 1, 3}};
+  constexpr bool kByLanes = kPartLanes == kLanes;
   alignas(64) double columns[4][kChains];
   for (int n = 0; n < kChains; ++n) {
-    double values[4];
-    __builtin_memcpy(values, plane[n], sizeof values);
+    const char* const from = static_cast<const char*>(plane[n]);
     for (int t = 0; t < 4; ++t) {
-      columns[t][n] = values[t];
+      const int place = kByLanes ? t : kNext[axis[n]][t];
+      __builtin_memcpy(&columns[t][n], from + place * static_cast<int>(sizeof(double)),
+                       sizeof(double));
     }
   }
-  const Chains x = load_lanes<Chains>(columns[0]);
-  const Chains y = load_lanes<Chains>(columns[1]);
-  const Chains z = load_lanes<Chains>(columns[2]);
-  const Mask<Chains> is_x = axis == 0.0;
-  const Mask<Chains> is_y = axis == 1.0;
-  const Chains zero = constant<Chains>(0.0);
+  Chains along = load_lanes<Chains>(columns[0]);
   EdgePlanes planes;
+  planes.across0 = load_lanes<Chains>(columns[1]);
+  planes.across1 = load_lanes<Chains>(columns[2]);
   planes.a = load_lanes<Chains>(columns[3]);
-  planes.across0 = select(is_x, y, select(is_y, z, x));
-  planes.across1 = select(is_x, z, select(is_y, x, y));
-  const Chains along = select(is_x, x, select(is_y, y, z)) * sense;
-  const Mask<Chains> has_none = (x == zero) & (y == zero) & (z == zero);
+  if constexpr (kByLanes) {
+    alignas(64) double axes[kChains];
+    for (int n = 0; n < kChains; ++n) {
+      axes[n] = axis[n];
+    }
+    const Mask<Chains> is_x = load_lanes<Chains>(axes) == 0.0;
+    const Mask<Chains> is_y = load_lanes<Chains>(axes) == 1.0;
+    const Chains x = along;
+    const Chains y = planes.across0;
+    const Chains z = planes.across1;
+    along = select(is_x, x, select(is_y, y, z));
+    planes.across0 = select(is_x, y, select(is_y, z, x));
+    planes.across1 = select(is_x, z, select(is_y, x, y));
+  }
+  along = along * sense;
+  const Chains zero = constant<Chains>(0.0);
+  const Mask<Chains> has_none =
+      (along == zero) & (planes.across0 == zero) & (planes.across1 == zero);
   planes.is_pure = has_none & (magnitude(planes.a) >= constant<Chains>(0.5));
   // No gradient: the normal runs along the edge, towards the outer cell.
   planes.along = select(planes.is_pure, zero, select(has_none, constant<Chains>(-1.0), along));
@@ -290,10 +307,9 @@ void solve_windows(WindowBatch& batch) {
       ends[0][n] = upper_inside ? batch.lower[first + n] : batch.upper[first + n];
       ends[1][n] = upper_inside ? batch.upper[first + n] : batch.lower[first + n];
     }
-    const Chains axis = load_lanes<Chains>(batch.axis + first);
     const Chains sense = load_lanes<Chains>(batch.sense + first);
-    const EdgePlanes outside = edge_planes(ends[0], axis, sense);
-    const EdgePlanes inside = edge_planes(ends[1], axis, sense);
+    const EdgePlanes outside = edge_planes(ends[0], batch.axis + first, sense);
+    const EdgePlanes inside = edge_planes(ends[1], batch.axis + first, sense);
     const auto prepared = [](const EdgePlanes& of) __attribute__((always_inline)) {
       return window_plane(of.along, of.across0, of.across1, of.a);
     };

@@ -59,7 +59,7 @@ class WindowQueue {
     edges_[n] = {node, axis, number};
     batch_.lower[n] = &lower;
     batch_.upper[n] = &upper;
-    batch_.axis[n] = static_cast<double>(axis);
+    batch_.axis[n] = static_cast<std::uint8_t>(axis);
     batch_.sense[n] = upper_inside ? 1.0 : -1.0;
     if (batch_.count == kBatch) {
       flush();
