@@ -55,12 +55,15 @@ struct WindowBatch {
   unsigned undone;  ///< edges where the share filled may not be monotone: no result
 };
 
-/// For plane_fit.hpp: fractions of 3x3x3 cells, x fastest, and then of five that are not there.
+/// For plane_fit.hpp: the neighbours that are there, and the cell itself. What is past `count` must be zero.
 inline constexpr int kFitCells = 32;
 struct FitTask {
   double fraction[kFitCells];
-  double is_there[kFitCells];  ///< 1 or 0
-  double m[3];                 ///< the start; then the result
+  double weight[kFitCells];    ///< 1
+  double shift[3][kFitCells];  ///< from the cell, in cells
+  int count;
+  double centre;  ///< the fraction of the cell itself
+  double m[3];    ///< the start; then the result
 };
 
 /// Groups of 64 cells in a row of memory: one word of bits each.

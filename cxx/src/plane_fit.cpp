@@ -6,14 +6,20 @@ namespace difmesh::detail {
 
 Vec3 fit_to_neighbours(const NeighbourFractions& hood, const Vec3& start) {
   FitTask task{};
-  int n = 0;
-  for (int k = 0; k < 3; ++k) {
-    for (int j = 0; j < 3; ++j) {
-      for (int i = 0; i < 3; ++i, ++n) {
-        task.fraction[n] = hood.fraction[k][j][i];
-        task.is_there[n] = hood.is_there[k][j][i] ? 1.0 : 0.0;
-      }
+  task.centre = hood.fraction[1][1][1];
+  for (int n = 0; n < 27; ++n) {
+    const int i = n % 3;
+    const int j = n / 3 % 3;
+    const int k = n / 9;
+    if (n == 13 || !hood.is_there[k][j][i]) {
+      continue;
     }
+    const int place = task.count++;
+    task.fraction[place] = hood.fraction[k][j][i];
+    task.weight[place] = 1.0;
+    task.shift[0][place] = i - 1;
+    task.shift[1][place] = j - 1;
+    task.shift[2][place] = k - 1;
   }
   for (std::size_t t = 0; t < 3; ++t) {
     task.m[t] = start[t];

@@ -8,15 +8,13 @@ namespace difmesh::detail::DIFMESH_INSTRUCTIONS {
 
 class PlaneSearch {
  public:
-  explicit PlaneSearch(const FitTask& cells) : centre_(cells.fraction[13]) {
-    for (int g = 0; g < kGroups; ++g) {
+  explicit PlaneSearch(const FitTask& cells)
+      : centre_(cells.centre), groups_((cells.count + kLanes - 1) / kLanes) {
+    for (int g = 0; g < groups_; ++g) {
       fraction_[g] = load(cells.fraction + g * kLanes);
-      is_there_[g] = load(cells.is_there + g * kLanes);
-      for (int n = 0; n < kLanes; ++n) {
-        const int cell = g * kLanes + n;
-        shift_[0][g].set(n, cell % 3 - 1);
-        shift_[1][g].set(n, cell / 3 % 3 - 1);
-        shift_[2][g].set(n, cell / 9 - 1);
+      weight_[g] = load(cells.weight + g * kLanes);
+      for (int t = 0; t < 3; ++t) {
+        shift_[t][g] = load(cells.shift[t] + g * kLanes);
       }
     }
   }
@@ -111,9 +109,9 @@ class PlaneSearch {
                             broadcast(one.large),          broadcast(one.inverse_small),
                             broadcast(one.inverse_middle), broadcast(one.inverse_large)};
     Lanes sum = broadcast(0.0);
-    for (int g = 0; g < kGroups; ++g) {
+    for (int g = 0; g < groups_; ++g) {
       const Lanes shift = m.x * shift_[0][g] + m.y * shift_[1][g] + m.z * shift_[2][g];
-      r.group[g] = (cube_share(all, a - shift) - fraction_[g]) * is_there_[g];
+      r.group[g] = (cube_share(all, a - shift) - fraction_[g]) * weight_[g];
       sum = sum + r.group[g] * r.group[g];
     }
     return total(sum);
@@ -146,7 +144,7 @@ class PlaneSearch {
     Lanes a11 = a00;
     Lanes b0 = a00;
     Lanes b1 = a00;
-    for (int g = 0; g < kGroups; ++g) {
+    for (int g = 0; g < groups_; ++g) {
       const Lanes d0 =
           (turned_residuals[1].group[g] - turned_residuals[0].group[g]) * (0.5 / kTurn);
       const Lanes d1 =
@@ -171,8 +169,9 @@ class PlaneSearch {
   }
 
   double centre_;
+  int groups_;
   Lanes fraction_[kGroups];
-  Lanes is_there_[kGroups];
+  Lanes weight_[kGroups];
   Lanes shift_[3][kGroups];
 };
 
