@@ -61,9 +61,6 @@ class NodeBits {
   [[nodiscard]] const std::uint64_t* row(std::int64_t j, std::int64_t k) const {
     return bits_.data() + row_index(j, k) * words_;
   }
-  [[nodiscard]] const std::uint64_t* row(std::int64_t index) const {
-    return bits_.data() + index * words_;
-  }
   void clear_row(std::int64_t j, std::int64_t k) { std::fill_n(row(j, k), words_, 0); }
   [[nodiscard]] bool test(const Index3& node) const {
     return (row(node[1], node[2])[node[0] / 64] >> (node[0] % 64) & 1) != 0;

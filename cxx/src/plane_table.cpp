@@ -1,7 +1,6 @@
 #include "plane_table.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "classify.hpp"
 #include "plane_fitter.hpp"
@@ -25,8 +24,8 @@ class Flagger {
     }
   }
 
-  /// Returns how many there are in the row, whose bits hold anything where there are none.
-  std::int64_t flag_row(std::int64_t j, std::int64_t k, NodeBits& flags) const {
+  /// Returns how many there are in the row; the words hold anything where there are none.
+  std::uint32_t flag_row(std::int64_t j, std::int64_t k, std::uint64_t* row) const {
     if (!cells_.is_row(j, k)) {
       return 0;
     }
@@ -45,7 +44,6 @@ class Flagger {
     if (!is_outermost && (at_ends | open_ends) == 0) {
       return 0;
     }
-    std::uint64_t* const row = flags.row(j, k);
     const std::int64_t words = nodes_.words();
     std::fill_n(row, words, 0);
     if (is_outermost && !ends.are_none()) {
@@ -65,9 +63,9 @@ class Flagger {
     if ((at_ends & 4) != 0) {
       set(row, cells_.last[0]);
     }
-    std::int64_t count = 0;
+    std::uint32_t count = 0;
     for (std::int64_t w = 0; w < words; ++w) {
-      count += row[w] != 0 ? count_bits(row[w]) : 0;
+      count += row[w] != 0 ? static_cast<std::uint32_t>(count_bits(row[w])) : 0;
     }
     return count;
   }
@@ -155,58 +153,71 @@ BlockCells::BlockCells(const BlockField& field) : dims(field.block.dims) {
   }
 }
 
-PlaneTable::PlaneTable(NodeBits flags, std::vector<std::int64_t> row_counts)
-    : flags_(std::move(flags)), row_start_(std::move(row_counts)) {
-  std::int64_t sum = 0;
-  for (std::int64_t& start : row_start_) {
-    sum += std::exchange(start, sum);
+PlaneTable::PlaneTable(const NodeBits& nodes, const std::vector<std::uint32_t>& row_counts)
+    : row_length_(nodes.last()[1] + 1) {
+  if (std::all_of(row_counts.begin(), row_counts.end(),
+                  [](std::uint32_t count) { return count == 0; })) {
+    return;
   }
-  row_start_.push_back(sum);
-  planes_.resize(static_cast<std::size_t>(sum));
+  starts_.reserve(row_counts.size() + 1);
+  Starts sum;
+  for (const std::uint32_t count : row_counts) {
+    starts_.push_back(sum);
+    sum.planes += count;
+    sum.flags += count > 0 ? nodes.words() : 0;
+  }
+  starts_.push_back(sum);
+  flags_.resize(static_cast<std::size_t>(sum.flags));
+  planes_.resize(static_cast<std::size_t>(sum.planes));
 }
 
 std::int64_t PlaneTable::rank(const Index3& node) const {
-  const std::uint64_t* row = flags_.row(node[1], node[2]);
-  std::int64_t number = row_start_[static_cast<std::size_t>(flags_.row_index(node[1], node[2]))];
+  const std::int64_t row = row_of(node);
+  const std::uint64_t* const words = flags(row);
+  std::int64_t number = starts_[static_cast<std::size_t>(row)].planes;
   const std::int64_t word = node[0] / 64;
   for (std::int64_t w = 0; w < word; ++w) {
-    number += count_bits(row[w]);
+    number += count_bits(words[w]);
   }
-  return number + count_bits(row[word] & below(static_cast<int>(node[0] % 64)));
+  return number + count_bits(words[word] & below(static_cast<int>(node[0] % 64)));
 }
 
 PlaneTable make_planes(const BlockField& field, const NodeBits& nodes,
                        const Array<std::uint8_t>& row_ends, const Options& options, Phases& phases,
                        Report& report) {
-  NodeBits flags(nodes.first(), nodes.last());
-  std::vector<std::int64_t> row_counts(static_cast<std::size_t>(nodes.rows()));
+  std::vector<std::uint32_t> row_counts(static_cast<std::size_t>(nodes.rows()));
   const std::int64_t grain = rows_per_portion(nodes);
   const std::int64_t row_length = nodes.last()[1] + 1;
+  std::vector<SourceCounts> portions(static_cast<std::size_t>((nodes.rows() + grain - 1) / grain));
+  PlaneTable table;
   with_scalar(field.view.type, [&](auto type) {
-    const Flagger<decltype(type)> flagger(field, nodes, row_ends,
-                                          options.placement == Placement::plic);
+    using T = decltype(type);
+    const Flagger<T> flagger(field, nodes, row_ends, options.placement == Placement::plic);
     phases.run(0.05, nodes.rows(), grain, [&](std::int64_t begin, std::int64_t end) {
+      std::vector<std::uint64_t> words(static_cast<std::size_t>(nodes.words()));
       std::int64_t j = begin % row_length;
       std::int64_t k = begin / row_length;
       for (std::int64_t row = begin; row < end; ++row) {
-        row_counts[static_cast<std::size_t>(row)] = flagger.flag_row(j, k, flags);
+        row_counts[static_cast<std::size_t>(row)] = flagger.flag_row(j, k, words.data());
         if (++j == row_length) {
           j = 0;
           ++k;
         }
       }
     });
-  });
-  PlaneTable table(std::move(flags), std::move(row_counts));
-  std::vector<SourceCounts> portions(static_cast<std::size_t>((nodes.rows() + grain - 1) / grain));
-  with_scalar(field.view.type, [&](auto type) {
-    using T = decltype(type);
+    table = PlaneTable(nodes, row_counts);
+    if (table.size() == 0) {
+      return;
+    }
     const FitterPlan<T> plan(field, options.normals);
     phases.run(0.05, nodes.rows(), grain, [&](std::int64_t begin, std::int64_t end) {
       PlaneFitter<T> fitter(plan, nodes);
       for (std::int64_t row = begin; row < end; ++row) {
         if (!table.is_empty(row)) {
-          fitter.fit_row(row % row_length, row / row_length, table.flags(row), table.planes(row));
+          const std::int64_t j = row % row_length;
+          const std::int64_t k = row / row_length;
+          flagger.flag_row(j, k, table.flags(row));
+          fitter.fit_row(j, k, table.flags(row), table.planes(row));
         }
       }
       portions[static_cast<std::size_t>(begin / grain)] = fitter.finish();

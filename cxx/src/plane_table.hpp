@@ -110,36 +110,53 @@ struct BlockCells {
 class PlaneTable {
  public:
   PlaneTable() = default;
-  /// Takes the cells' flags and their number in each row; no planes yet. Rows of flags without cells are not looked at.
-  PlaneTable(NodeBits flags, std::vector<std::int64_t> row_counts);
+  /// Makes room for flags and planes; no memory to speak of where there are none.
+  /// \param row_counts planes of each row of nodes
+  PlaneTable(const NodeBits& nodes, const std::vector<std::uint32_t>& row_counts);
 
   [[nodiscard]] bool has(const Index3& node) const {
-    return !is_empty(flags_.row_index(node[1], node[2])) && flags_.test(node);
+    const std::int64_t row = row_of(node);
+    return !is_empty(row) && (flags(row)[node[0] / 64] >> (node[0] % 64) & 1) != 0;
   }
   /// \pre has(node)
   [[nodiscard]] const UnitPlane& at(const Index3& node) const {
     return planes_[static_cast<std::size_t>(rank(node))];
   }
   [[nodiscard]] bool is_empty(std::int64_t row) const {
-    return row_start_[static_cast<std::size_t>(row)] ==
-           row_start_[static_cast<std::size_t>(row) + 1];
+    const auto n = static_cast<std::size_t>(row);
+    return starts_.empty() || starts_[n].planes == starts_[n + 1].planes;
   }
-  [[nodiscard]] std::int64_t size() const { return row_start_.back(); }
+  [[nodiscard]] std::int64_t size() const { return static_cast<std::int64_t>(planes_.size()); }
 
   /// Words of bits, and the planes of their cells. \pre the row is not empty
-  [[nodiscard]] const std::uint64_t* flags(std::int64_t row) const { return flags_.row(row); }
+  [[nodiscard]] const std::uint64_t* flags(std::int64_t row) const {
+    return flags_.data() + starts_[static_cast<std::size_t>(row)].flags;
+  }
   [[nodiscard]] const UnitPlane* planes(std::int64_t row) const {
-    return planes_.data() + row_start_[static_cast<std::size_t>(row)];
+    return planes_.data() + starts_[static_cast<std::size_t>(row)].planes;
+  }
+  [[nodiscard]] std::uint64_t* flags(std::int64_t row) {
+    return flags_.data() + starts_[static_cast<std::size_t>(row)].flags;
   }
   [[nodiscard]] UnitPlane* planes(std::int64_t row) {
-    return planes_.data() + row_start_[static_cast<std::size_t>(row)];
+    return planes_.data() + starts_[static_cast<std::size_t>(row)].planes;
   }
 
  private:
+  // Of one row.
+  struct Starts {
+    std::int64_t planes = 0;
+    std::int64_t flags = 0;
+  };
+
+  [[nodiscard]] std::int64_t row_of(const Index3& node) const {
+    return node[2] * row_length_ + node[1];
+  }
   [[nodiscard]] std::int64_t rank(const Index3& node) const;
 
-  NodeBits flags_;
-  std::vector<std::int64_t> row_start_{0};
+  std::int64_t row_length_ = 0;
+  std::vector<Starts> starts_;
+  Array<std::uint64_t> flags_;
   Array<UnitPlane> planes_;
 };
 
