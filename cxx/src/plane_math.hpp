@@ -123,8 +123,8 @@ template <class R>
   R low = m.middle;
   R high = smaller(two, half);
   const R width = high - low;
-  const R rise = select(two <= m.large, two * m.inverse_large * 0.5, constant<R>(0.5)) -
-                 share_at_middle;
+  const R rise =
+      select(two <= m.large, two * m.inverse_large * 0.5, constant<R>(0.5)) - share_at_middle;
   const R above_low = larger(share - share_at_middle, zero);
   Mask<R> done = opposite(wanted) | (above_low >= rise) | opposite(rise > zero);
   R result = high;

@@ -97,12 +97,12 @@ class PlaneSlabs {
     slab.start.resize(rows + 1);
     slab.inner_planes = 0;
     slab.counts = {};
-    const bool is_inner = k > 1 && k < cells_.dims[2];
+    const bool in_inner_slab = k > 1 && k < cells_.dims[2];
     std::int64_t count = 0;
     for (std::int64_t n = 0; n < rows_; ++n) {
       slab.start[static_cast<std::size_t>(n)] = count;
       const std::int64_t j = first_ + n;
-      if (is_inner && j > 1 && j < cells_.dims[1]) {
+      if (in_inner_slab && j > 1 && j < cells_.dims[1]) {
         const RowCounts counts = flag_row(j, k, slab);
         count += counts.all;
         slab.inner_planes += n < own_ ? counts.inner : 0;

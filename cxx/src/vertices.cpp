@@ -368,7 +368,7 @@ void place_vertices(const DualGrid& grid, const Options& options,
   with_scalar(grid.field().view.type, [&](auto type) {
     using T = decltype(type);
     const FitterPlan<T> plan(grid.field(), options.normals);
-    phases.run(0.62, count, grain, [&](std::int64_t begin, std::int64_t end) {
+    phases.run(0.6, count, grain, [&](std::int64_t begin, std::int64_t end) {
       portions[static_cast<std::size_t>(begin / grain)] =
           with_planes
               ? place_tile<T>(placer, plan, row_start, tiles[static_cast<std::size_t>(begin)], mesh)
