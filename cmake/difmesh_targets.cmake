@@ -32,6 +32,9 @@ endfunction()
 # For targets whose own code takes longer to compile than it ever runs.
 function(difmesh_compile_fast target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  if(DIFMESH_SANITIZE)
+    target_compile_options(${target} PRIVATE -O0)
+  endif()
 endfunction()
 
 # A library of the project: difmesh_<part>, seen by users as difmesh::<part>, installed as

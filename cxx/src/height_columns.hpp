@@ -51,7 +51,7 @@ constexpr bool kIsFloating = static_cast<T>(0.5) != static_cast<T>(0);
 
 template <class V, class T>
 [[gnu::always_inline]] inline V load_elements(const T* from) {
-  V result;
+  V result{};
   if constexpr (kIsFloating<T>) {
     __builtin_memcpy(&result, from, sizeof result);
   } else {

@@ -19,11 +19,13 @@ const Kernels* kernels_of(Instructions instructions) {
 }
 
 const Kernels* best() {
+#ifndef DIFMESH_PREFER_BASELINE
   for (const Instructions instructions : {Instructions::avx512, Instructions::avx2}) {
     if (has_instructions(instructions)) {
       return kernels_of(instructions);
     }
   }
+#endif
   return kernels_of(Instructions::baseline);
 }
 
@@ -56,6 +58,16 @@ const Kernels& kernels() {
     chosen.store(known, std::memory_order_relaxed);
   }
   return *known;
+}
+
+Instructions instructions_in_use() {
+  const Kernels* const known = &kernels();
+  for (const Instructions instructions : {Instructions::avx512, Instructions::avx2}) {
+    if (known == kernels_of(instructions)) {
+      return instructions;
+    }
+  }
+  return Instructions::baseline;
 }
 
 void use_instructions(Instructions instructions) {

@@ -125,7 +125,9 @@ enum class Instructions : std::uint8_t { baseline, avx2, avx512 };
 /// The kernels for the best instructions that the machine has. Thread safety: safe.
 [[nodiscard]] const Kernels& kernels();
 
-/// For tests and benchmarks: uses these instead, in all calls that begin later. \pre has_instructions()
+/// For tests and benchmarks: which those are, and to use others, in all calls that begin later.
+/// \pre has_instructions()
+[[nodiscard]] Instructions instructions_in_use();
 void use_instructions(Instructions instructions);
 
 namespace baseline {

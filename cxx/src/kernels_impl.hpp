@@ -187,9 +187,52 @@ template <class T>
   }
 }
 
+// What does not depend on the type of the elements is kept out of line: it is compiled once.
+
+// Normals of eight cells from their 3x3x3 fractions. Returns the cells without a gradient.
+[[gnu::noinline]] unsigned estimate_normals(const Lanes (&c)[27], bool centred_columns,
+                                            Triple<Lanes>& normal) {
+  constexpr double kAllThere[3][3] = {{1.0, 1.0, 1.0}, {1.0, 1.0, 1.0}, {1.0, 1.0, 1.0}};
+  normal = youngs(c);
+  const Lanes size = norm1(normal);
+  normal = scaled(normal, 1.0 / size);
+  if (centred_columns) {
+    normal = mixed_normal(c, kAllThere, normal).m;
+  }
+  return bits_of(size < broadcast(kTie));
+}
+
+[[gnu::noinline]] void take_all_heights(const HeightLanes& heights, int lanes, PlaneBatch& planes) {
+  for (int first = 0; first < lanes; first += kLanes) {
+    Triple<Lanes> normal{
+        {load(planes.m[0] + first), load(planes.m[1] + first), load(planes.m[2] + first)}};
+    take_heights(heights, first, normal);
+    for (int t = 0; t < 3; ++t) {
+      store(normal.v[t], planes.m[t] + first);
+    }
+  }
+}
+
+[[gnu::noinline]] void find_offsets(double (&fraction)[kBatch], int lanes, PlaneBatch& planes) {
+  // What is past the last cell may hold anything, and would cost steps.
+  for (int n = lanes; n < (lanes + kChains - 1) / kChains * kChains; ++n) {
+    for (double(&component)[kBatch] : planes.m) {
+      component[n] = component[0];
+    }
+    fraction[n] = fraction[0];
+  }
+  for (int first = 0; first < lanes; first += kChains) {
+    const auto component = [&](int t) __attribute__((always_inline)) {
+      return load_lanes<Chains>(planes.m[t] + first);
+    };
+    store(offset_of_share(sorted(component(0), component(1), component(2)),
+                          load_lanes<Chains>(fraction + first)),
+          planes.a + first);
+  }
+}
+
 template <class T>
 void fit_planes(const PlaneTask<T>& task, const CellBatch<T>& cells, PlaneBatch& planes) {
-  constexpr double kAllThere[3][3] = {{1.0, 1.0, 1.0}, {1.0, 1.0, 1.0}, {1.0, 1.0, 1.0}};
   const int lanes = (cells.count + kLanes - 1) / kLanes * kLanes;
   alignas(64) double fraction[kBatch];
   Pointing pointing{};
@@ -198,13 +241,8 @@ void fit_planes(const PlaneTask<T>& task, const CellBatch<T>& cells, PlaneBatch&
     Lanes c[27];
     gather_neighbours(task, cells, first, c);
     store(c[13], fraction + first);
-    Triple<Lanes> normal = youngs(c);
-    const Lanes size = norm1(normal);
-    planes.gradient_free |= bits_of(size < broadcast(kTie)) << first;
-    normal = scaled(normal, 1.0 / size);
-    if (task.centred_columns) {
-      normal = mixed_normal(c, kAllThere, normal).m;
-    }
+    Triple<Lanes> normal;
+    planes.gradient_free |= estimate_normals(c, task.centred_columns, normal) << first;
     pointing.add(normal, first);
     for (int t = 0; t < 3; ++t) {
       store(normal.v[t], planes.m[t] + first);
@@ -221,30 +259,11 @@ void fit_planes(const PlaneTask<T>& task, const CellBatch<T>& cells, PlaneBatch&
       heights.low[0][n] = heights.low[1][n] = heights.high[0][n] = heights.high[1][n] = 0.0;
     }
     gather_heights(task, cells, pointing, planes, heights);
-    for (int first = 0; first < lanes && planes.from_heights != 0; first += kLanes) {
-      Triple<Lanes> normal{
-          {load(planes.m[0] + first), load(planes.m[1] + first), load(planes.m[2] + first)}};
-      take_heights(heights, first, normal);
-      for (int t = 0; t < 3; ++t) {
-        store(normal.v[t], planes.m[t] + first);
-      }
+    if (planes.from_heights != 0) {
+      take_all_heights(heights, lanes, planes);
     }
   }
-  // What is past the last cell may hold anything, and would cost steps.
-  for (int n = lanes; n < (lanes + kChains - 1) / kChains * kChains; ++n) {
-    for (double(&component)[kBatch] : planes.m) {
-      component[n] = component[0];
-    }
-    fraction[n] = fraction[0];
-  }
-  for (int first = 0; first < lanes; first += kChains) {
-    const auto component = [&](int t) __attribute__((always_inline)) {
-      return load_lanes<Chains>(planes.m[t] + first);
-    };
-    store(offset_of_share(sorted(component(0), component(1), component(2)),
-                          load_lanes<Chains>(fraction + first)),
-          planes.a + first);
-  }
+  find_offsets(fraction, lanes, planes);
 }
 
 // Planes as EdgePlane of window.hpp has them.
