@@ -154,6 +154,7 @@ TEST_CASE("drc files come back with ids and scalars and their place") {
     const std::string bytes = test::read_bytes(folder / "m.drc");
     CHECK(report.bytes == static_cast<std::int64_t>(bytes.size()));
     CHECK((bytes.find("difmesh_origin") != std::string::npos) == (mesh == &far));
+    CHECK((report.local_origin != Vec3{0, 0, 0}) == (mesh == &far));
     const ScalarMesh back = difmesh::read_drc(folder / "m.drc");
     CHECK(report.position_error <= 1.01e-3 * spacing);
     // The rounding of float64 at 1e6 comes on top.
