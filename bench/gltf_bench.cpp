@@ -80,7 +80,7 @@ void draco_alone(benchmark::State& state) {
 }
 
 void glb(benchmark::State& state, const WriteGltfOptions& options) {
-  GltfReport report;
+  MeshFileReport report;
   for (auto _ : state) {
     benchmark::DoNotOptimize(encode_glb(surface(), options, &report));
   }

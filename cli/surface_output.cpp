@@ -53,7 +53,7 @@ std::string write_as_gltf(const SurfaceOutput& output, const ScalarMesh& surface
   }
   options.up = output.up.value_or(options.up);
   options.metres_per_unit = output.metres_per_unit.value_or(options.metres_per_unit);
-  const GltfReport report = write_gltf(output.path, surface.mesh, options);
+  const MeshFileReport report = write_gltf(output.path, surface.mesh, options);
   return written(report.bytes, report.position_bits, report.position_error);
 }
 
@@ -178,7 +178,7 @@ std::string write_surface(const SurfaceOutput& output, const ScalarMesh& surface
     WriteDrcOptions options;
     options.scalars = surface.scalars;
     options.draco = draco_options(output, cell_size);
-    const DracoReport report = write_drc(output.path, surface.mesh, options);
+    const MeshFileReport report = write_drc(output.path, surface.mesh, options);
     return written(report.bytes, report.position_bits, report.position_error);
   }
   WriteMeshOptions options;

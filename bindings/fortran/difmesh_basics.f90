@@ -16,9 +16,9 @@ module difmesh_basics
   interface dif_init
     module procedure init_options, init_report, init_function_options, init_function_report, &
       init_triangle_options, init_triangle_report, init_shape_options, init_measure, &
-      init_distance_options, init_distance, init_mesh_write_options, init_raw_layout, &
-      init_field_write_options, init_block, init_mollify_options, init_curvature_options, &
-      init_smoothing_options
+      init_distance_options, init_distance, init_mesh_write_options, init_mesh_write_report, &
+      init_raw_layout, init_field_write_options, init_block, init_mollify_options, &
+      init_curvature_options, init_smoothing_options
   end interface
 
   integer, parameter :: longest_text = 1024  ! of any message
@@ -181,6 +181,12 @@ contains
     type(dif_mesh_write_options), intent(out) :: struct
     integer(c_int32_t) :: ignored
     ignored = dif_mesh_write_options_init(struct, c_sizeof(struct))
+  end subroutine
+
+  subroutine init_mesh_write_report(struct)
+    type(dif_mesh_write_report), intent(out) :: struct
+    integer(c_int32_t) :: ignored
+    ignored = dif_mesh_write_report_init(struct, c_sizeof(struct))
   end subroutine
 
   subroutine init_raw_layout(struct)

@@ -414,6 +414,20 @@ module difmesh_c
       type(dif_mesh_write_options), intent(in), optional :: options
     end function
 
+    integer(c_int32_t) function dif_mesh_write_report_init(report, struct_size) bind(c)
+      import :: c_int32_t, c_int64_t, dif_mesh_write_report
+      type(dif_mesh_write_report), intent(inout) :: report
+      integer(c_int64_t), value :: struct_size
+    end function
+
+    integer(c_int32_t) function dif_mesh_write_reported(mesh, path, options, report) bind(c)
+      import :: c_char, c_int32_t, c_ptr, dif_mesh_write_options, dif_mesh_write_report
+      type(c_ptr), value :: mesh
+      character(kind=c_char), intent(in) :: path(*)
+      type(dif_mesh_write_options), intent(in), optional :: options
+      type(dif_mesh_write_report), intent(inout), optional :: report
+    end function
+
     integer(c_int32_t) function dif_mesh_read(path, mesh) bind(c)
       import :: c_char, c_int32_t, c_ptr
       character(kind=c_char), intent(in) :: path(*)

@@ -441,14 +441,16 @@ contains
   end subroutine
 
   ! To .ply (double precision), .obj, .off, .stl, .glb, .gltf or .drc. `colour_by`, the name of
-  ! scalars, and `name` are for glTF, and come before those of the options.
-  subroutine write_file(mesh, path, status, options, message, colour_by, name)
+  ! scalars, and `name` are for glTF, and come before those of the options. `report` tells what was
+  ! written; if that fails it is as dif_init leaves it.
+  subroutine write_file(mesh, path, status, options, message, colour_by, name, report)
     class(dif_mesh), intent(in) :: mesh
     character(*), intent(in) :: path
     integer(c_int32_t), intent(out) :: status
     type(dif_mesh_write_options), intent(in), optional :: options
     character(*), intent(inout), optional :: message
     character(*), intent(in), optional :: colour_by, name
+    type(dif_mesh_write_report), intent(out), optional :: report
     type(dif_mesh_write_options) :: given
     character(kind=c_char), allocatable, target :: scalars(:), title(:)
     call dif_init(given)
@@ -461,7 +463,8 @@ contains
       title = to_c(name)
       given%name = c_loc(title)
     end if
-    call finish(dif_mesh_write(mesh%handle, to_c(path), given), status, message)
+    if (present(report)) call dif_init(report)
+    call finish(dif_mesh_write_reported(mesh%handle, to_c(path), given, report), status, message)
   end subroutine
 
   type(c_ptr) function c_handle(mesh)

@@ -368,6 +368,18 @@ module difmesh_types
     type(c_ptr) :: name = c_null_ptr  ! likewise
   end type
 
+  type, bind(c), public :: dif_mesh_write_report
+    integer(c_int64_t) :: struct_size = 0
+    integer(c_int64_t) :: bytes = 0
+    integer(c_int64_t) :: vertices = 0
+    integer(c_int64_t) :: triangles = 0
+    integer(c_int64_t) :: primitives = 0
+    integer(c_int32_t) :: position_bits = 0
+    integer(c_int32_t) :: reserved = 0
+    real(c_double) :: position_error = 0
+    real(c_double) :: local_origin(3) = 0
+  end type
+
   type, bind(c), public :: dif_raw_layout
     integer(c_int64_t) :: struct_size = 0
     integer(c_int64_t) :: dims(3) = 0

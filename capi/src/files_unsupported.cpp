@@ -18,6 +18,12 @@ dif_status dif_mesh_write(const dif_mesh* /*mesh*/, const char* /*path*/,
   return unsupported();
 }
 
+dif_status dif_mesh_write_reported(const dif_mesh* /*mesh*/, const char* /*path*/,
+                                   const dif_mesh_write_options* /*options*/,
+                                   dif_mesh_write_report* /*report*/) {
+  return unsupported();
+}
+
 dif_status dif_mesh_read(const char* /*path*/, dif_mesh** mesh) {
   if (mesh != nullptr) {
     *mesh = nullptr;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include "difmesh/io/draco_file.hpp"
 #include "difmesh/io/gltf_file.hpp"
 #include "difmesh/io/mesh_file.hpp"
+#include "difmesh/io/mesh_file_report.hpp"
 #include "handles.hpp"
 
 namespace capi = difmesh::capi;
@@ -137,6 +139,36 @@ difmesh::WriteGltfOptions to_gltf(Request request) {
   return gltf;
 }
 
+difmesh::MeshFileReport write(const char* path, const difmesh::Mesh& mesh, Request request) {
+  if (is_gltf(request.format)) {
+    return write_gltf(path, mesh, to_gltf(std::move(request)));
+  }
+  if (request.format == MeshFormat::drc) {
+    return write_drc(path, mesh,
+                     {.normals = request.normals,
+                      .edge_ids = request.edge_ids,
+                      .scalars = std::move(request.scalars),
+                      .draco = to_draco(request.given)});
+  }
+  return write_mesh(path, mesh,
+                    {.format = request.format,
+                     .normals = request.normals,
+                     .edge_ids = request.edge_ids,
+                     .scalars = std::move(request.scalars)});
+}
+
+dif_mesh_write_report to_report(const difmesh::MeshFileReport& report) {
+  dif_mesh_write_report result{};
+  result.bytes = report.bytes;
+  result.vertices = report.vertices;
+  result.triangles = report.triangles;
+  result.primitives = report.primitives;
+  result.position_bits = report.position_bits;
+  result.position_error = report.position_error;
+  std::copy(report.local_origin.begin(), report.local_origin.end(), result.local_origin);
+  return result;
+}
+
 dif_mesh to_mesh(difmesh::ScalarMesh read) {
   dif_mesh mesh{.mesh = std::move(read.mesh)};
   for (VertexScalars& scalars : read.scalars) {
@@ -149,24 +181,22 @@ dif_mesh to_mesh(difmesh::ScalarMesh read) {
 
 dif_status dif_mesh_write(const dif_mesh* mesh, const char* path,
                           const dif_mesh_write_options* options) {
+  return dif_mesh_write_reported(mesh, path, options, nullptr);
+}
+
+dif_status dif_mesh_write_reported(const dif_mesh* mesh, const char* path,
+                                   const dif_mesh_write_options* options,
+                                   dif_mesh_write_report* report) {
   return capi::guarded([&] {
+    if (report != nullptr) {
+      capi::check_output(report, "report");  // before there is a file
+    }
     const char* name = &capi::required(path, "path");
-    const difmesh::Mesh& source = capi::required(mesh, "mesh").mesh;
-    Request request = to_request(*mesh, name, options);
-    if (is_gltf(request.format)) {
-      write_gltf(name, source, to_gltf(std::move(request)));
-    } else if (request.format == MeshFormat::drc) {
-      write_drc(name, source,
-                {.normals = request.normals,
-                 .edge_ids = request.edge_ids,
-                 .scalars = std::move(request.scalars),
-                 .draco = to_draco(request.given)});
-    } else {
-      write_mesh(name, source,
-                 {.format = request.format,
-                  .normals = request.normals,
-                  .edge_ids = request.edge_ids,
-                  .scalars = std::move(request.scalars)});
+    const dif_mesh& source = capi::required(mesh, "mesh");
+    const difmesh::MeshFileReport facts =
+        write(name, source.mesh, to_request(source, name, options));
+    if (report != nullptr) {
+      capi::write_output(report, to_report(facts), "report");
     }
   });
 }

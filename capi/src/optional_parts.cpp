@@ -68,6 +68,11 @@ dif_status dif_mesh_write_options_init(dif_mesh_write_options* options, uint64_t
   });
 }
 
+dif_status dif_mesh_write_report_init(dif_mesh_write_report* report, uint64_t struct_size) {
+  return capi::guarded(
+      [&] { capi::write_struct(report, struct_size, dif_mesh_write_report{}, "report"); });
+}
+
 dif_status dif_raw_layout_init(dif_raw_layout* layout, uint64_t struct_size) {
   return capi::guarded([&] {
     dif_raw_layout value{};

@@ -155,6 +155,7 @@ void AtomicFile::flush() {
     }
     done += written > 0 ? static_cast<std::size_t>(written) : 0;
   }
+  flushed_ += static_cast<std::int64_t>(used_);
   used_ = 0;
 }
 

@@ -26,8 +26,10 @@ class AtomicFile {
   /// Shortest decimal form that reads as the same number.
   void write_number(double number);
   void write_number(std::uint64_t number);
-  /// The last call.
+  /// The last call but for size().
   void commit();
+  /// Bytes written so far.
+  [[nodiscard]] std::int64_t size() const { return flushed_ + static_cast<std::int64_t>(used_); }
 
  private:
   void open_direct();
@@ -40,6 +42,7 @@ class AtomicFile {
   std::filesystem::path target_;     ///< behind symbolic links
   std::filesystem::path temporary_;  ///< empty if written directly
   int descriptor_ = -1;
+  std::int64_t flushed_ = 0;
   std::size_t used_ = 0;
   std::vector<char> buffer_;
 };

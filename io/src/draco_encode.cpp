@@ -95,9 +95,15 @@ void bound_decoded(const Array<float>& positions, int bits, EncodedDraco& encode
     const float whole = std::floor((high[axis] - low[axis]) * inverse + 0.5F);
     encoded.high[axis] = whole * step + low[axis];
   }
-  // Half a step; and the roundings of float32, of the mesh's centre and on the way.
-  encoded.position_error = 0.5 * static_cast<double>(range) / static_cast<double>(steps) +
-                           3.0 * static_cast<double>(range) * 0x1p-24;
+  float largest = 0.F;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    largest = std::max({largest, std::abs(low[axis]), std::abs(high[axis])});
+  }
+  // Half a step; and the roundings of float32: of coordinates when they are packed and when the low
+  // corner is added again, and of distances from it on the way.
+  encoded.position_error =
+      0.5 * static_cast<double>(range) / static_cast<double>(steps) +
+      2.0 * (static_cast<double>(range) + static_cast<double>(largest)) * 0x1p-24;
 }
 
 void add_metadata(draco::Mesh& mesh, const PackedPrimitive& primitive, const Vec3& origin) {

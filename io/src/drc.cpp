@@ -70,8 +70,8 @@ Array<Vec3> vectors_of(const std::filesystem::path& path, const DecodedAttribute
 
 }  // namespace
 
-DracoReport write_drc(const std::filesystem::path& path, const Mesh& mesh,
-                      const WriteDrcOptions& options) {
+MeshFileReport write_drc(const std::filesystem::path& path, const Mesh& mesh,
+                         const WriteDrcOptions& options) {
   check_mesh(path, mesh);
   check_scalars(path, mesh, options.scalars);
   check_draco(path, options.draco);
@@ -92,8 +92,10 @@ DracoReport write_drc(const std::filesystem::path& path, const Mesh& mesh,
   return {.bytes = static_cast<std::int64_t>(encoded.bytes.size()),
           .vertices = static_cast<std::int64_t>(encoded.points),
           .triangles = static_cast<std::int64_t>(encoded.faces),
+          .primitives = 1,
           .position_bits = bits,
-          .position_error = encoded.position_error};
+          .position_error = encoded.position_error,
+          .local_origin = origin};
 }
 
 namespace detail {

@@ -289,7 +289,7 @@ void GltfDocument::write_data(const Sink& sink) const {
   }
 }
 
-GltfReport GltfDocument::report() const {
+MeshFileReport GltfDocument::report() const {
   return report_;
 }
 

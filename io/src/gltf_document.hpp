@@ -30,7 +30,7 @@ class GltfDocument {
   /// The data, data_bytes() in all, in portions.
   void write_data(const Sink& sink) const;
   /// All but the size of the file.
-  [[nodiscard]] GltfReport report() const;
+  [[nodiscard]] MeshFileReport report() const;
 
  private:
   void add_plain(const PackedPrimitive& primitive);
@@ -46,7 +46,7 @@ class GltfDocument {
   Json json_;
   Json primitives_ = Json::array();
   std::uint64_t data_bytes_ = 0;
-  GltfReport report_;
+  MeshFileReport report_;
 };
 
 }  // namespace difmesh::detail

@@ -15,18 +15,18 @@ constexpr const char* kMatter = "difmesh was built without glTF (DIFMESH_WITH_GL
 
 namespace detail {
 
-GltfReport write_gltf_as(const std::filesystem::path& path, const Mesh&, const WriteGltfOptions&,
-                         bool) {
+MeshFileReport write_gltf_as(const std::filesystem::path& path, const Mesh&,
+                             const WriteGltfOptions&, bool) {
   fail_write(ErrorCode::invalid_argument, path, kMatter);
 }
 
 }  // namespace detail
 
-GltfReport write_gltf(const std::filesystem::path& path, const Mesh&, const WriteGltfOptions&) {
+MeshFileReport write_gltf(const std::filesystem::path& path, const Mesh&, const WriteGltfOptions&) {
   detail::fail_write(ErrorCode::invalid_argument, path, kMatter);
 }
 
-std::vector<char> encode_glb(const Mesh&, const WriteGltfOptions&, GltfReport*) {
+std::vector<char> encode_glb(const Mesh&, const WriteGltfOptions&, MeshFileReport*) {
   throw Error(ErrorCode::invalid_argument, kMatter);
 }
 

@@ -143,11 +143,11 @@ std::uint64_t glb_size(const std::filesystem::path& path, std::uint64_t json_byt
   return size;
 }
 
-GltfReport write_gltf_as(const std::filesystem::path& path, const Mesh& mesh,
-                         const WriteGltfOptions& options, bool binary) {
+MeshFileReport write_gltf_as(const std::filesystem::path& path, const Mesh& mesh,
+                             const WriteGltfOptions& options, bool binary) {
   const GltfDocument document = describe(path, mesh, options);
   AtomicFile file(path);
-  GltfReport report = document.report();
+  MeshFileReport report = document.report();
   const Sink sink = [&](const void* data, std::size_t bytes) {
     file.write(data, bytes);
     report.bytes += static_cast<std::int64_t>(bytes);
@@ -159,8 +159,8 @@ GltfReport write_gltf_as(const std::filesystem::path& path, const Mesh& mesh,
 
 }  // namespace detail
 
-GltfReport write_gltf(const std::filesystem::path& path, const Mesh& mesh,
-                      const WriteGltfOptions& options) {
+MeshFileReport write_gltf(const std::filesystem::path& path, const Mesh& mesh,
+                          const WriteGltfOptions& options) {
   if (options.binary) {
     return detail::write_gltf_as(path, mesh, options, *options.binary);
   }
@@ -173,7 +173,7 @@ GltfReport write_gltf(const std::filesystem::path& path, const Mesh& mesh,
 }
 
 std::vector<char> encode_glb(const Mesh& mesh, const WriteGltfOptions& options,
-                             GltfReport* report) {
+                             MeshFileReport* report) {
   const std::filesystem::path path = "glb in memory";
   const detail::GltfDocument document = detail::describe(path, mesh, options);
   std::vector<char> bytes;

@@ -9,8 +9,8 @@
 namespace difmesh::detail {
 
 /// write_gltf() whatever the extension.
-GltfReport write_gltf_as(const std::filesystem::path& path, const Mesh& mesh,
-                         const WriteGltfOptions& options, bool binary);
+MeshFileReport write_gltf_as(const std::filesystem::path& path, const Mesh& mesh,
+                             const WriteGltfOptions& options, bool binary);
 
 /// The size of a .glb file whose JSON and data have so many bytes, padding and headers included.
 /// \throw Error too_large beyond what its 32-bit lengths can say

@@ -1,6 +1,9 @@
 #include "difmesh/io/mesh_file.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -35,8 +38,22 @@ constexpr std::array<KnownFormat, 7> kFormats{{{".ply", MeshFormat::ply},
                                                {".gltf", MeshFormat::gltf},
                                                {".drc", MeshFormat::drc}}};
 
-void write_tables(const std::filesystem::path& path, const Mesh& mesh,
-                  const WriteMeshOptions& options, MeshFormat format) {
+/// The most that float32 changes a coordinate of a triangle.
+double largest_rounding(const Mesh& mesh) {
+  double largest = 0.0;
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const std::uint32_t v : triangle) {
+      for (const double coordinate : mesh.positions[v]) {
+        const auto rounded = static_cast<double>(static_cast<float>(coordinate));
+        largest = std::max(largest, std::abs(coordinate - rounded));
+      }
+    }
+  }
+  return largest;
+}
+
+MeshFileReport write_tables(const std::filesystem::path& path, const Mesh& mesh,
+                            const WriteMeshOptions& options, MeshFormat format) {
   const bool stl = format == MeshFormat::stl;
   detail::check_mesh(path, mesh, stl ? "STL" : nullptr);
   if (stl && mesh.triangles.size() > std::numeric_limits<std::int32_t>::max()) {
@@ -65,6 +82,12 @@ void write_tables(const std::filesystem::path& path, const Mesh& mesh,
       break;
   }
   file.commit();
+  return {.bytes = file.size(),
+          .vertices =
+              static_cast<std::int64_t>(stl ? 3 * mesh.triangles.size() : mesh.positions.size()),
+          .triangles = static_cast<std::int64_t>(mesh.triangles.size()),
+          .primitives = 1,
+          .position_error = stl ? largest_rounding(mesh) : 0.0};
 }
 
 ScalarMesh read_tables(const std::filesystem::path& path, MeshFormat format) {
@@ -83,8 +106,8 @@ ScalarMesh read_tables(const std::filesystem::path& path, MeshFormat format) {
 
 }  // namespace
 
-void write_mesh(const std::filesystem::path& path, const Mesh& mesh,
-                const WriteMeshOptions& options) {
+MeshFileReport write_mesh(const std::filesystem::path& path, const Mesh& mesh,
+                          const WriteMeshOptions& options) {
   const std::optional<MeshFormat> format = options.format ? options.format : mesh_format_of(path);
   if (!format) {
     detail::fail_write(ErrorCode::invalid_argument, path,
@@ -93,18 +116,16 @@ void write_mesh(const std::filesystem::path& path, const Mesh& mesh,
   switch (*format) {
     case MeshFormat::glb:
     case MeshFormat::gltf:
-      detail::write_gltf_as(
+      return detail::write_gltf_as(
           path, mesh,
           {.normals = options.normals, .edge_ids = options.edge_ids, .scalars = options.scalars},
           *format == MeshFormat::glb);
-      break;
     case MeshFormat::drc:
-      write_drc(
+      return write_drc(
           path, mesh,
           {.normals = options.normals, .edge_ids = options.edge_ids, .scalars = options.scalars});
-      break;
     default:
-      write_tables(path, mesh, options, *format);
+      return write_tables(path, mesh, options, *format);
   }
 }
 

@@ -106,6 +106,7 @@ AT_LEAST(dif_distance_options, 40);
 typedef char size_of_dif_statistics[sizeof(dif_statistics) == 88 ? 1 : -1];
 AT_LEAST(dif_distance, 208);
 AT_LEAST(dif_mesh_write_options, 144);
+AT_LEAST(dif_mesh_write_report, 80);
 AT_LEAST(dif_raw_layout, 48);
 AT_LEAST(dif_field_write_options, 24);
 AT_LEAST(dif_block, 104);

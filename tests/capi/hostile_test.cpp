@@ -54,6 +54,7 @@ struct Bench {
   std::int64_t count = 0;
   const char* text = nullptr;
   dif_mesh_write_options write_options = test::prepared(dif_mesh_write_options_init);
+  dif_mesh_write_report write_report = test::prepared(dif_mesh_write_report_init);
 
   Bench() {
     dif_shape* made = nullptr;
@@ -612,6 +613,10 @@ dif_status write_ply(Bench& b) {
   return write_mesh_to(b, "/nowhere/x.ply");
 }
 
+dif_status write_reported(Bench& b) {
+  return dif_mesh_write_reported(b.mesh.get(), "/nowhere/x.ply", nullptr, &b.write_report);
+}
+
 std::vector<Case> write_cases() {
   const char* const f = "dif_mesh_write";
   return {
@@ -656,6 +661,7 @@ std::vector<Case> file_cases() {
   };
   std::vector<Case> cases{
       CALL("dif_mesh_write_options_init", dif_mesh_write_options_init(nullptr, 24), kArgument),
+      CALL("dif_mesh_write_report_init", dif_mesh_write_report_init(nullptr, 80), kArgument),
       CALL("dif_raw_layout_init", dif_raw_layout_init(nullptr, 48), kArgument),
       CALL("dif_field_write_options_init", dif_field_write_options_init(nullptr, 24), kArgument),
       CALL("dif_mesh_write", dif_mesh_write(nullptr, "x.ply", nullptr), or_unsupported(kArgument)),
@@ -665,6 +671,19 @@ std::vector<Case> file_cases() {
            or_unsupported(kArgument)),
       CALL("dif_mesh_write", dif_mesh_write(b.mesh.get(), "/nowhere/x.ply", nullptr),
            or_unsupported(DIF_ERROR_FILE_WRITE)),
+      CALL("dif_mesh_write_reported",
+           dif_mesh_write_reported(nullptr, "x.ply", nullptr, &b.write_report),
+           or_unsupported(kArgument)),
+      CALL("dif_mesh_write_reported",
+           dif_mesh_write_reported(b.mesh.get(), nullptr, nullptr, &b.write_report),
+           or_unsupported(kArgument)),
+      CALL("dif_mesh_write_reported",
+           dif_mesh_write_reported(b.mesh.get(), "/nowhere/x.ply", nullptr, nullptr),
+           or_unsupported(DIF_ERROR_FILE_WRITE)),
+      CHANGED("dif_mesh_write_reported", write_report.struct_size = 4, or_unsupported(kStruct),
+              write_reported),
+      CHANGED("dif_mesh_write_reported", write_report.struct_size = 1U << 20U,
+              or_unsupported(kStruct), write_reported),
       CALL("dif_mesh_read", dif_mesh_read(nullptr, &b.result), or_unsupported(kArgument)),
       CALL("dif_mesh_read", dif_mesh_read("x.ply", nullptr), or_unsupported(kArgument)),
       CALL("dif_mesh_read", dif_mesh_read("/nowhere/x.ply", &b.result),

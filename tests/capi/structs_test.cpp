@@ -126,6 +126,7 @@ TEST_CASE("init functions serve structs of every length") {
   check_init<dif_distance_options>("distance_options", dif_distance_options_init);
   check_init<dif_distance>("distance", dif_distance_init);
   check_init<dif_mesh_write_options>("mesh_write_options", dif_mesh_write_options_init);
+  check_init<dif_mesh_write_report>("mesh_write_report", dif_mesh_write_report_init);
   check_init<dif_raw_layout>("raw_layout", dif_raw_layout_init);
   check_init<dif_field_write_options>("field_write_options", dif_field_write_options_init);
   check_init<dif_block>("block", dif_block_init);
@@ -220,6 +221,13 @@ TEST_CASE("calls read structs of every length") {
   check_filling<dif_triangle_report>("triangle_report", [&](dif_triangle_report* report) {
     return dif_fractions_from_mesh(&grid, mesh.get(), nullptr, report, fractions.data());
   });
+  if (dif_has(DIF_PART_FILES) == 1) {
+    dif_mesh_write_options ply = test::prepared(dif_mesh_write_options_init);
+    ply.format = DIF_MESH_FORMAT_PLY;
+    check_filling<dif_mesh_write_report>("mesh_write_report", [&](dif_mesh_write_report* report) {
+      return dif_mesh_write_reported(mesh.get(), "/dev/null", &ply, report);
+    });
+  }
 }
 
 TEST_CASE("fields that a shorter struct lacks take their defaults") {

@@ -84,14 +84,10 @@ class Samples {
     if (choose) {
       choose(options);
     }
-    difmesh::GltfReport report;
+    difmesh::MeshFileReport report;
     if (name.ends_with(".drc")) {
       difmesh::WriteDrcOptions drc{.scalars = options.scalars, .draco = *options.draco};
-      const auto written = difmesh::write_drc(folder_ / name, mesh, drc);
-      report = {.vertices = written.vertices,
-                .triangles = written.triangles,
-                .position_bits = written.position_bits,
-                .position_error = written.position_error};
+      report = difmesh::write_drc(folder_ / name, mesh, drc);
     } else {
       report = difmesh::write_gltf(folder_ / name, mesh, options);
     }

@@ -25,6 +25,15 @@ double largest_difference(const Vec3& a, const Vec3& b) {
   return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
 }
 
+double largest_difference(const Mesh& a, const Mesh& b) {
+  REQUIRE(a.positions.size() == b.positions.size());
+  double largest = 0.0;
+  for (std::size_t v = 0; v < a.positions.size(); ++v) {
+    largest = std::max(largest, largest_difference(a.positions[v], b.positions[v]));
+  }
+  return largest;
+}
+
 /// Vertices that edge ids match are at most `bound` apart in each coordinate.
 void check_by_ids(const Mesh& back, const Mesh& mesh, double bound) {
   REQUIRE(back.edge_ids.size() == back.positions.size());
@@ -118,6 +127,21 @@ TEST_CASE("the default position bits keep errors within a thousandth of a cell")
   }
 }
 
+TEST_CASE("the error of draco holds away from the origin too") {
+  const TempFolder folder;
+  const difmesh::DracoOptions draco{.position_bits = 13, .method = DracoMethod::sequential};
+  // The further away, the coarser float32 is there; positions of the last are about its centre.
+  for (const double place : {0.0, 300.0, 1500.0, 2500.0, 1e6}) {
+    CAPTURE(place);
+    const Mesh mesh = test::ball(16, {place, -place, place});
+    const auto drc = difmesh::write_drc(folder / "m.drc", mesh, {.draco = draco});
+    CHECK(largest_difference(difmesh::read_mesh(folder / "m.drc"), mesh) <= drc.position_error);
+    const auto glb = difmesh::write_gltf(folder / "m.glb", mesh,
+                                         {.draco = draco, .local_origin = Vec3{0, 0, 0}});
+    CHECK(largest_difference(difmesh::read_mesh(folder / "m.glb"), mesh) <= glb.position_error);
+  }
+}
+
 TEST_CASE("drc files come back with ids and scalars and their place") {
   const TempFolder folder;
   const Mesh near = test::ball(16);
@@ -130,6 +154,7 @@ TEST_CASE("drc files come back with ids and scalars and their place") {
     const std::string bytes = test::read_bytes(folder / "m.drc");
     CHECK(report.bytes == static_cast<std::int64_t>(bytes.size()));
     CHECK((bytes.find("difmesh_origin") != std::string::npos) == (mesh == &far));
+    CHECK((report.local_origin != Vec3{0, 0, 0}) == (mesh == &far));
     const ScalarMesh back = difmesh::read_drc(folder / "m.drc");
     CHECK(report.position_error <= 1.01e-3 * spacing);
     // The rounding of float64 at 1e6 comes on top.

@@ -92,7 +92,11 @@ TEST_CASE("write_mesh and read_mesh know glb and gltf and drc") {
   const Mesh mesh = test::ball(12);
   for (const char* name : {"m.glb", "m.gltf", "m.drc"}) {
     CAPTURE(name);
-    difmesh::write_mesh(folder / name, mesh);
+    const difmesh::MeshFileReport report = difmesh::write_mesh(folder / name, mesh);
+    CHECK(report.bytes == static_cast<std::int64_t>(test::read_bytes(folder / name).size()));
+    CHECK(report.vertices == static_cast<std::int64_t>(mesh.positions.size()));
+    CHECK(report.primitives == 1);
+    CHECK((report.position_bits > 0) == (name == std::string("m.drc")));
     const Mesh back = difmesh::read_mesh(folder / name);
     CHECK(back.positions.size() == mesh.positions.size());
     CHECK(back.normals.size() == mesh.positions.size());

@@ -1,5 +1,6 @@
 #include "difmesh/io/mesh_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -265,6 +266,37 @@ TEST_CASE("obj and off texts are those of the format") {
   CHECK(test::read_bytes(folder / "m.obj") ==
         "# 3 vertices, 1 triangles\nv 0.1 -2 3e-05\nv 4 5 6\nv 7 8 9\nvn 0 0 1\nvn 0 1 0\nvn 1 0 "
         "0\nf 3//3 1//1 2//2\n");
+}
+
+TEST_CASE("write_mesh tells what it wrote") {
+  const TempFolder folder;
+  // Small, and larger than what is written at once.
+  for (const Mesh& mesh : {sphere(5), sphere(150)}) {
+    for (const std::string name : {"m.ply", "m.obj", "m.off", "m.stl"}) {
+      CAPTURE(name);
+      const bool stl = name == "m.stl";
+      const difmesh::MeshFileReport report = difmesh::write_mesh(folder / name, mesh);
+      CHECK(report.bytes == static_cast<std::int64_t>(std::filesystem::file_size(folder / name)));
+      CHECK(report.vertices ==
+            static_cast<std::int64_t>(stl ? 3 * mesh.triangles.size() : mesh.positions.size()));
+      CHECK(report.triangles == static_cast<std::int64_t>(mesh.triangles.size()));
+      CHECK(report.primitives == 1);
+      CHECK(report.position_bits == 0);
+      CHECK(report.local_origin == Vec3{0, 0, 0});
+      double error = 0.0;
+      const Mesh back = difmesh::read_mesh(folder / name);
+      for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          for (std::size_t axis = 0; axis < 3; ++axis) {
+            error = std::max(error, std::abs(back.positions[back.triangles[t][c]][axis] -
+                                             mesh.positions[mesh.triangles[t][c]][axis]));
+          }
+        }
+      }
+      CHECK(report.position_error == error);
+      CHECK((error > 0.0) == stl);
+    }
+  }
 }
 
 TEST_CASE("the empty mesh is written and read in every format") {

@@ -29,7 +29,7 @@ from ._errors import (
 from ._field import Field, FunctionReport, TriangleReport
 from ._files import read_field, write_field
 from ._fractions import Shape, sample_function, sample_mesh, sample_shape
-from ._mesh import Measure, Mesh, Report, read_mesh
+from ._mesh import Measure, Mesh, Report, WriteReport, read_mesh
 from ._options import choice as _choice
 from ._planes import Planes, cell_planes, normals, plane_fraction, plane_offset
 from ._reconstruct import GHOST_LAYERS, reconstruct, reconstruct_block, weld
@@ -61,6 +61,7 @@ __all__ = [
     "TooLargeError",
     "TriangleReport",
     "UnsupportedError",
+    "WriteReport",
     "cell_planes",
     "curvature",
     "distance",

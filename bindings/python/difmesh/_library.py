@@ -96,7 +96,9 @@ _ARGUMENTS: dict[str, list[Any]] = {
     "dif_smoothing_options_init": _init(s.DifSmoothingOptions),
     "dif_mesh_smooth": [_MESH, _GRID, POINTER(s.DifSmoothingOptions), _OUT],
     "dif_mesh_write_options_init": _init(s.DifMeshWriteOptions),
-    "dif_mesh_write": [_MESH, c_char_p, POINTER(s.DifMeshWriteOptions)],
+    "dif_mesh_write_reported": [
+        _MESH, c_char_p, POINTER(s.DifMeshWriteOptions), POINTER(s.DifMeshWriteReport)
+    ],
     "dif_mesh_read": [c_char_p, _OUT],
     "dif_raw_layout_init": _init(s.DifRawLayout),
     "dif_field_read": [c_char_p, POINTER(s.DifRawLayout), _OUT],

@@ -13,7 +13,7 @@ from ._calls import Handle
 from ._errors import check
 from ._library import library
 from ._memory import Path, address_of, from_address, path_bytes
-from ._structs import DifMeasure, DifReport
+from ._structs import DifMeasure, DifMeshWriteReport, DifReport
 from ._write_options import text_bytes, to_write_options
 
 
@@ -64,6 +64,21 @@ class Measure:
     volume: float  #: signed; meaningful where closed and well oriented
     low: tuple[float, float, float]  #: bounding box of all positions
     high: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class WriteReport:
+    """What became of a mesh in a file. Counts are those of the file: STL has three vertices per
+    triangle, the parts of a split glTF repeat some, and Draco adds some where the mesh is not
+    manifold."""
+
+    bytes: int  #: size of the file
+    vertices: int
+    triangles: int
+    primitives: int  #: of glTF; 1 in other formats
+    position_bits: int  #: of Draco; 0 without
+    position_error: float  #: no coordinate is off by more; exact for STL, 0 for PLY, OBJ and OFF
+    local_origin: tuple[float, float, float]  #: glTF, Draco: positions are relative to it; else 0
 
 
 def to_dataclass(kind: type[Any], struct: Any) -> Any:
@@ -251,8 +266,9 @@ class Mesh:
         local_origin: Optional[Sequence[float]] = None,
         most_vertices: Optional[int] = None,
         name: Optional[str] = None,
-    ) -> None:
-        """Writes .ply (float64), .obj, .off, .stl, .glb, .gltf (float32) or .drc.
+    ) -> WriteReport:
+        """Writes .ply (float64), .obj, .off, .stl, .glb, .gltf (float32) or .drc, and tells what
+        was written: the file's size, counts, and by how much coordinates are off.
 
         difmesh/io/mesh_file.hpp says what each keeps; a library without glTF or Draco refuses
         these. The extension tells, unless `format` does: "ply", "obj", "off", "stl", "glb", "gltf"
@@ -286,7 +302,14 @@ class Mesh:
             most_vertices=most_vertices, name=name,
         )  # fmt: skip
         mesh = self._with_scalars(scalars) if scalars else self
-        check(library.dif_mesh_write(mesh._handle.pointer, path_bytes(path), byref(options)))
+        report = DifMeshWriteReport()
+        check(
+            library.dif_mesh_write_reported(
+                mesh._handle.pointer, path_bytes(path), byref(options), byref(report)
+            )
+        )
+        result: WriteReport = to_dataclass(WriteReport, report)
+        return result
 
     def _with_scalars(self, scalars: Mapping[str, Any]) -> Mesh:
         both = {**self.scalars, **scalars}

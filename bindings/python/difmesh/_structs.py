@@ -313,6 +313,20 @@ class DifMeshWriteOptions(Sized):
     ]
 
 
+class DifMeshWriteReport(Sized):
+    _fields_ = [
+        ("struct_size", c_uint64),
+        ("bytes", c_int64),
+        ("vertices", c_int64),
+        ("triangles", c_int64),
+        ("primitives", c_int64),
+        ("position_bits", c_int32),
+        ("reserved", c_int32),
+        ("position_error", c_double),
+        ("local_origin", c_double * 3),
+    ]
+
+
 class DifRawLayout(Sized):
     _fields_ = [
         ("struct_size", c_uint64),

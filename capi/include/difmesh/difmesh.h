@@ -754,6 +754,28 @@ DIF_API dif_status dif_mesh_write_options_init(dif_mesh_write_options* options,
  * or DIF_PART_DRACO is not there). Since 0.1. */
 DIF_API dif_status dif_mesh_write(const dif_mesh* mesh, const char* path,
                                   const dif_mesh_write_options* options);
+
+/* What became of a mesh in a file. Counts are those of the file: STL has three vertices per triangle,
+ * the parts of a split glTF repeat some, and Draco adds some where the mesh is not manifold. */
+typedef struct dif_mesh_write_report {
+  uint64_t struct_size;
+  int64_t bytes; /* size of the file */
+  int64_t vertices;
+  int64_t triangles;
+  int64_t primitives;    /* of glTF; 1 in other formats */
+  int32_t position_bits; /* of Draco; 0 without */
+  int32_t reserved;
+  double position_error;  /* no coordinate is off by more; exact for STL, 0 for PLY, OBJ, OFF */
+  double local_origin[3]; /* glTF, Draco: what positions are relative to in the file; else 0 */
+} dif_mesh_write_report;
+
+/* Prepares an output struct. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
+DIF_API dif_status dif_mesh_write_report_init(dif_mesh_write_report* report, uint64_t struct_size);
+/* dif_mesh_write() that tells what it wrote. `report` may be NULL; one that cannot be filled is
+ * refused before anything is written. Errors: likewise. Since 0.1. */
+DIF_API dif_status dif_mesh_write_reported(const dif_mesh* mesh, const char* path,
+                                           const dif_mesh_write_options* options,
+                                           dif_mesh_write_report* report);
 /* Reads .ply, .obj, .off, .stl, .glb, .gltf or .drc, told by the extension.
  * Errors: FILE_MISSING, FILE_FORMAT, TOO_LARGE, OUT_OF_MEMORY, UNSUPPORTED (as above; FILE_FORMAT for
  * compressed glTF). Since 0.1. */

@@ -229,13 +229,21 @@ contains
     real(8), target :: c(24, 19, 21)
     type(dif_mesh) :: mesh, again
     type(dif_mesh_write_options) :: options
+    type(dif_mesh_write_report) :: report
     integer :: status
     character(1000) :: message
     if (dif_has(dif_part_files) == 0) return
     c = ball(24, 19, 21)
     call mesh%reconstruct(dif_view(c), status)
-    call mesh%write('meshes_test.ply   ', status)
+    call mesh%write('meshes_test.ply   ', status, report=report)
     call expect(status == dif_ok, 'a mesh is written')
+    call expect(report%bytes == size_of('meshes_test.ply'), 'the size of a file')
+    call expect(report%vertices == mesh%vertex_count(), 'the vertices of a file')
+    call expect(report%triangles == mesh%triangle_count(), 'the triangles of a file')
+    call expect(report%position_bits == 0, 'no bits')
+    call expect_near(report%position_error, 0d0, 0d0, 'no error')
+    call mesh%write('no/such/folder.ply', status, report=report)
+    call expect(status == dif_error_file_write .and. report%bytes == 0, 'nothing was written')
     call again%read('meshes_test.ply', status)
     call expect_same(mesh, again, 'a file')
     call dif_init(options)
@@ -254,7 +262,8 @@ contains
     real(8), target :: c(24, 19, 21)
     type(dif_mesh) :: mesh, copy
     type(dif_mesh_write_options) :: options
-    real(8), allocatable :: points(:, :), values(:)
+    type(dif_mesh_write_report) :: report
+    real(8), allocatable :: points(:, :), before(:, :), values(:)
     integer :: status
     character(1000) :: message
     c = ball(24, 19, 21)
@@ -289,10 +298,17 @@ contains
     options%draco = 1
     options%draco_method = dif_draco_sequential
     options%position_bits = 8
-    call mesh%write('scalars_test.glb', status, options, message)
+    before = points
+    call mesh%write('scalars_test.glb', status, options, message, report=report)
     if (dif_has(dif_part_draco) == 1) then
+      call expect(report%bytes == size_of('scalars_test.glb'), 'the size of a compressed file')
+      call expect(report%position_bits == 8, 'its bits')
+      call expect_near(report%local_origin(3), (minval(before(3, :)) + maxval(before(3, :)))/2, &
+        1d-14, 'the centre')
       call copy%read('scalars_test.glb', status)
       call copy%get_points(points, status)
+      call expect(maxval(abs(points - before)) <= report%position_error, 'its error')
+      call expect(maxval(abs(points - before)) > report%position_error/2, 'and no less')
       call mesh%get_scalars('height', values, status)
       call expect(maxval(abs(values - points(3, :))) < 13/510d0, 'within half a step')
       call expect(maxval(abs(values - points(3, :))) > 10/1020d0, 'and compressed')
@@ -302,6 +318,11 @@ contains
     open (unit=11, file='scalars_test.glb')
     close (11, status='delete')
   end subroutine
+
+  integer function size_of(path)
+    character(*), intent(in) :: path
+    inquire (file=path, size=size_of)
+  end function
 
   subroutine test_distance()
     real(8), target :: c(24, 19, 21)

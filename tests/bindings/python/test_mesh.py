@@ -1,6 +1,7 @@
 """Meshes: from fields, from arrays, from and to files; measures and distances of them."""
 
 import copy
+import dataclasses
 import json
 import math
 import os
@@ -251,6 +252,30 @@ class Files(unittest.TestCase):
         with open(self.path("ball.soap"), "rb") as one, open(self.path("plain.ply"), "rb") as two:
             self.assertEqual(one.read(), two.read())
 
+    def saved(self, mesh, file, **options):
+        report = mesh.save(self.path(file), **options)
+        self.assertIsInstance(report, difmesh.WriteReport)
+        self.assertEqual(report.bytes, os.path.getsize(self.path(file)))
+        return report
+
+    def test_reports_of_tables(self):
+        mesh = difmesh.reconstruct(smooth_ball(), spacing=0.1)
+        for extension in ("ply", "obj", "off"):
+            self.assertEqual(
+                dataclasses.replace(self.saved(mesh, f"ball.{extension}"), bytes=0),
+                difmesh.WriteReport(
+                    bytes=0, vertices=len(mesh.points), triangles=len(mesh.faces), primitives=1,
+                    position_bits=0, position_error=0.0, local_origin=(0.0, 0.0, 0.0),
+                ),
+            )  # fmt: skip
+        report = self.saved(mesh, "ball.stl")
+        self.assertEqual(report.vertices, 3 * len(mesh.faces))
+        rounded = mesh.points.astype(np.float32).astype(np.float64)
+        self.assertGreater(report.position_error, 0)
+        self.assertEqual(report.position_error, np.abs(rounded - mesh.points).max())
+        with self.assertRaises(dataclasses.FrozenInstanceError):
+            report.bytes = 1
+
     def need(self, *parts):
         for part in parts:
             if not difmesh.has(part):
@@ -293,13 +318,18 @@ class Files(unittest.TestCase):
         side = np.ptp(mesh.points, axis=0).max()
         sizes = []
         for bits in (8, 14):
-            mesh.save(self.path("ball.glb"), draco=bits, draco_method="sequential")
+            report = self.saved(mesh, "ball.glb", draco=bits, draco_method="sequential")
             again = difmesh.read_mesh(self.path("ball.glb"))
             np.testing.assert_array_equal(again.faces, mesh.faces)
             half_step = side / (2 * (2**bits - 1))
             error = np.abs(again.points - mesh.points).max()
             self.assertLess(error, half_step + 1e-6 * side)
             self.assertGreater(error, half_step / 2)
+            self.assertLessEqual(error, report.position_error)
+            self.assertGreater(error, report.position_error / 2)
+            self.assertEqual(report.position_bits, bits)
+            centre = (mesh.points.min(axis=0) + mesh.points.max(axis=0)) / 2
+            np.testing.assert_allclose(report.local_origin, centre, rtol=1e-15)
             sizes.append(os.path.getsize(self.path("ball.glb")))
         self.assertLess(sizes[0], sizes[1])
         mesh.save(self.path("ball.glb"), draco=14, draco_speed=0)
@@ -313,16 +343,20 @@ class Files(unittest.TestCase):
     def test_colours(self):
         self.need("gltf")
         mesh = difmesh.reconstruct(smooth_ball())
-        mesh.save(
-            self.path("ball.gltf"), scalars={"x": mesh.points[:, 0]}, color_by="x",
+        report = self.saved(
+            mesh, "ball.gltf", scalars={"x": mesh.points[:, 0]}, color_by="x",
             color_map="cool_warm", color_range=(-2.5, 30), up="z", metres_per_unit=0.25,
             local_origin=(0, 0, 3.5), most_vertices=200, name="a ball",
         )  # fmt: skip
+        self.assertEqual(report.local_origin, (0.0, 0.0, 3.5))
+        self.assertEqual(report.triangles, len(mesh.faces))
+        self.assertGreater(report.vertices, len(mesh.points))
         with open(self.path("ball.gltf")) as file:
             document = json.load(file)
         (surface,) = document["meshes"]
         self.assertEqual(surface["name"], "a ball")
         self.assertGreater(len(surface["primitives"]), 2)
+        self.assertEqual(len(surface["primitives"]), report.primitives)
         for primitive in surface["primitives"]:
             self.assertTrue({"COLOR_0", "_X"} <= set(primitive["attributes"]))
         text = json.dumps(document)

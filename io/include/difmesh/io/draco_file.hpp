@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "difmesh/io/mesh_file_report.hpp"
 #include "difmesh/io/vertex_scalars.hpp"
 #include "difmesh/mesh.hpp"
 
@@ -39,23 +40,14 @@ struct WriteDrcOptions {
   DracoOptions draco = {};
 };
 
-/// What compression did.
-struct DracoReport {
-  std::int64_t bytes = 0;
-  std::int64_t vertices = 0;  ///< as written; more than the mesh's where it is not manifold
-  std::int64_t triangles = 0;
-  int position_bits = 0;
-  double position_error = 0.0;  ///< no coordinate is off by more, in the unit of the mesh
-};
-
 /// Writes a .drc file: float32 positions, named attributes for edge ids and scalars. Where float32
 /// about zero would be coarser than an eighth of a step, positions are relative to the centre of
 /// the bounding box, which the metadata `difmesh_origin` holds as three float64.
 /// \throw Error as write_mesh(), invalid_argument for options out of range or scalars of another
 ///   length or without a name of their own, invalid_value for a mesh without triangles.
 /// Cost: linear; see bench/gltf_bench.cpp. Thread safety: concurrent calls are safe.
-DracoReport write_drc(const std::filesystem::path& path, const Mesh& mesh,
-                      const WriteDrcOptions& options = {});
+MeshFileReport write_drc(const std::filesystem::path& path, const Mesh& mesh,
+                         const WriteDrcOptions& options = {});
 
 /// Reads a .drc file of any encoder: positions, normals, and single-component generic attributes
 /// that have a name. `difmesh_origin` is added. Files of difmesh's own come back with edge ids.

@@ -12,6 +12,7 @@
 
 #include "difmesh/io/colour_map.hpp"
 #include "difmesh/io/draco_file.hpp"
+#include "difmesh/io/mesh_file_report.hpp"
 #include "difmesh/io/vertex_scalars.hpp"
 #include "difmesh/mesh.hpp"
 
@@ -53,16 +54,6 @@ struct WriteGltfOptions {
   std::optional<bool> binary = {};
 };
 
-struct GltfReport {
-  std::int64_t bytes = 0;  ///< size of the file
-  std::int64_t primitives = 0;
-  std::int64_t vertices = 0;  ///< as written, repeated ones included
-  std::int64_t triangles = 0;
-  Vec3 local_origin{0, 0, 0};
-  int position_bits = 0;        ///< of Draco; 0 without
-  double position_error = 0.0;  ///< no coordinate is off by more, in the unit of the mesh
-};
-
 /// Writes a mesh as .glb (one binary file) or .gltf (one text file, its data in base64: a third
 /// larger, but whole or not there at all like any file of ours).
 /// - POSITION float32 with exact min and max, NORMAL, indices uint16 or, from 65536 vertices on,
@@ -78,12 +69,12 @@ struct GltfReport {
 ///   too_large where the file would exceed 4 GiB, the most that the .glb format can hold.
 /// Cost: linear; 1.2 million triangles take some 0.1 s. Memory: about the size of the file without
 /// compression. Thread safety: concurrent calls are safe. Source: Khronos, glTF 2.0.
-GltfReport write_gltf(const std::filesystem::path& path, const Mesh& mesh,
-                      const WriteGltfOptions& options = {});
+MeshFileReport write_gltf(const std::filesystem::path& path, const Mesh& mesh,
+                          const WriteGltfOptions& options = {});
 
 /// The bytes of the .glb file, in memory.
 [[nodiscard]] std::vector<char> encode_glb(const Mesh& mesh, const WriteGltfOptions& options = {},
-                                           GltfReport* report = nullptr);
+                                           MeshFileReport* report = nullptr);
 
 /// The same in base64, for web pages.
 [[nodiscard]] std::string encode_glb_base64(const Mesh& mesh, const WriteGltfOptions& options = {});

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "difmesh/io/mesh_file_report.hpp"
 #include "difmesh/io/vertex_scalars.hpp"
 #include "difmesh/mesh.hpp"
 
@@ -45,8 +46,8 @@ struct WriteMeshOptions {
 ///   STL; file_write with the path and the system's reason.
 /// Cost: linear; 1.2 million triangles take some 0.05 s as PLY, 0.2 s as OFF, OBJ or STL.
 /// Thread safety: concurrent calls are safe.
-void write_mesh(const std::filesystem::path& path, const Mesh& mesh,
-                const WriteMeshOptions& options = {});
+MeshFileReport write_mesh(const std::filesystem::path& path, const Mesh& mesh,
+                          const WriteMeshOptions& options = {});
 
 /// Reads a mesh; the extension of the path, in any case of letters, tells the format. Vertices and
 /// faces keep their order; polygons become fans of triangles about their first corner. For glTF and
