@@ -116,6 +116,34 @@ TEST_CASE("plane: the offset of a fraction gives that fraction back") {
   worst.check(kPromised);
 }
 
+// Two components alike to the last bits and a third that is next to nothing leave ranges of offsets that are empty by
+// rounding.
+TEST_CASE("plane: offsets are finite and right for components that vanish or tie") {
+  constexpr double kFar = 2.0;
+  for (double small : {0.0, 5e-324, 1e-310, 1e-300, 1e-160, 1e-100, 1.1102230246251565e-16, 1e-15,
+                       1e-9, 1e-4, 0.1}) {
+    for (int ties = -2; ties <= 2; ++ties) {
+      double other = 0.5;
+      for (int n = 0; n < std::abs(ties); ++n) {
+        other = std::nextafter(other, ties > 0 ? kFar : 0.0);
+      }
+      for (const double third : {0.5, 0.25, 1e-3, small}) {
+        for (const double fraction : {1e-300, 1e-30, 1e-16, 1e-6, 0.25, std::nextafter(0.5, 0.0),
+                                      0.5, std::nextafter(0.5, 1.0), 0.75, 1.0 - 1e-16}) {
+          const Vec3 normal{small, other, -third};
+          const double offset = plane_offset(normal, {1.0, 1.0, 1.0}, fraction);
+          CAPTURE(small);
+          CAPTURE(other);
+          CAPTURE(third);
+          CAPTURE(fraction);
+          REQUIRE(std::isfinite(offset));
+          CHECK(std::abs(plane_fraction(normal, {1.0, 1.0, 1.0}, offset) - fraction) <= kPromised);
+        }
+      }
+    }
+  }
+}
+
 TEST_CASE("plane: the fraction is the volume of the clipped cell") {
   Worst worst;
   Random random(2);

@@ -126,12 +126,14 @@ template <class R>
   const R rise =
       select(two <= m.large, two * m.inverse_large * 0.5, constant<R>(0.5)) - share_at_middle;
   const R above_low = larger(share - share_at_middle, zero);
-  Mask<R> done = opposite(wanted) | (above_low >= rise) | opposite(rise > zero);
-  R result = high;
-  // The cubic, alpha as a function of the share, with a single division.
+  // The cubic, alpha as a function of the share, with a single division. Where the range is so narrow that this
+  // underflows, or empty by rounding, its end will do.
   const R slope_low = (m.middle - m.small * 0.5) * m.inverse_middle * m.inverse_large * width;
   const R slope_high = corner_slopes(m, high).first * width;
-  const R inverse = 1.0 / (rise * slope_low * slope_high);
+  const R product = rise * slope_low * slope_high;
+  Mask<R> done = opposite(wanted) | (above_low >= rise) | opposite(product > constant<R>(1e-290));
+  R result = high;
+  const R inverse = 1.0 / product;
   const R t = above_low * slope_low * slope_high * inverse;
   const R start = rise * rise * slope_high * inverse;
   const R end = rise * rise * slope_low * inverse;
