@@ -5,7 +5,6 @@
 #include "columns_abreast.hpp"
 #include "height_columns.hpp"
 #include "kernels.hpp"
-#include "lane_pair.hpp"
 #include "normal_math.hpp"
 #include "plane_fit_math.hpp"
 #include "plane_math.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// Eight doubles at a time, for the kernels, and the same operations on one double, so that a formula
+// Eight doubles at a time, or sixteen, for the kernels, and the same operations on one double, so that a formula
 // written once as a template serves both. Every operation acts on each lane as IEEE 754 has it, so
 // a lane's result depends neither on its neighbours nor on the instruction set, and equals that of
 // the same formula on one double.
@@ -8,6 +8,7 @@
 // function that was compiled for one machine for another. For the same reason nothing of the
 // standard library is called here.
 
+#include <cstddef>
 #include <cstdint>
 
 #if defined(__SSE2__)
@@ -33,82 +34,109 @@ inline constexpr int kPartLanes = 2;
 #endif
 inline constexpr int kParts = kLanes / kPartLanes;
 
-template <class V>
+template <class V, int kCount>
 struct Split {
-  V part[kParts];
+  V part[static_cast<std::size_t>(kCount)];
 };
 typedef double Part __attribute__((vector_size(kPartLanes * sizeof(double))));
 typedef unsigned long long PartBits __attribute__((vector_size(kPartLanes * sizeof(double))));
 using PartMask = decltype(Part{} < Part{});
 
 /// Masks: all bits of a lane set, or none.
-using LaneMask = Split<PartMask>;
-using LaneBits = Split<PartBits>;
-
-struct Lanes : Split<Part> {
+template <int kCount>
+using MasksOf = Split<PartMask, kCount>;
+template <int kCount>
+using BitLanesOf = Split<PartBits, kCount>;
+template <int kCount>
+struct LanesOf : Split<Part, kCount> {
   [[gnu::always_inline]] double operator[](int n) const {
-    return part[n / kPartLanes][n % kPartLanes];
+    return this->part[n / kPartLanes][n % kPartLanes];
   }
   [[gnu::always_inline]] void set(int n, double value) {
-    part[n / kPartLanes][n % kPartLanes] = value;
+    this->part[n / kPartLanes][n % kPartLanes] = value;
   }
 };
+using Lanes = LanesOf<kParts>;
+using LaneMask = MasksOf<kParts>;
+using LaneBits = BitLanesOf<kParts>;
+
+/// As many lanes as a chain of operations is best taken with: long ones leave machines with wide vectors half idle, unless
+/// there are two that do not wait for each other.
+#if defined(__AVX512F__)
+using Chains = LanesOf<2 * kParts>;
+#else
+using Chains = Lanes;
+#endif
+inline constexpr int kChains = static_cast<int>(sizeof(Chains) / sizeof(double));
 
 #define DIFMESH_FOR_PARTS(Result, expression) \
-  Result result;                              \
-  for (int n = 0; n < kParts; ++n) {          \
+  Result<kCount> result;                      \
+  for (int n = 0; n < kCount; ++n) {          \
     result.part[n] = expression;              \
   }                                           \
   return result
-#define DIFMESH_BINARY(Result, Operand, Scalar, op)                                      \
-  [[gnu::always_inline]] inline Result operator op(const Operand& a, const Operand& b) { \
-    DIFMESH_FOR_PARTS(Result, a.part[n] op b.part[n]);                                   \
-  }                                                                                      \
-  [[gnu::always_inline]] inline Result operator op(const Operand& a, Scalar b) {         \
-    DIFMESH_FOR_PARTS(Result, a.part[n] op b);                                           \
-  }                                                                                      \
-  [[gnu::always_inline]] inline Result operator op(Scalar a, const Operand& b) {         \
-    DIFMESH_FOR_PARTS(Result, a op b.part[n]);                                           \
+#define DIFMESH_BINARY(Result, Operand, Scalar, op)                                              \
+  template <int kCount>                                                                          \
+  [[gnu::always_inline]] inline Result<kCount> operator op(const Operand<kCount>& a,             \
+                                                           const Operand<kCount>& b) {           \
+    DIFMESH_FOR_PARTS(Result, a.part[n] op b.part[n]);                                           \
+  }                                                                                              \
+  template <int kCount>                                                                          \
+  [[gnu::always_inline]] inline Result<kCount> operator op(const Operand<kCount>& a, Scalar b) { \
+    DIFMESH_FOR_PARTS(Result, a.part[n] op b);                                                   \
+  }                                                                                              \
+  template <int kCount>                                                                          \
+  [[gnu::always_inline]] inline Result<kCount> operator op(Scalar a, const Operand<kCount>& b) { \
+    DIFMESH_FOR_PARTS(Result, a op b.part[n]);                                                   \
   }
-DIFMESH_BINARY(Lanes, Lanes, double, +)
-DIFMESH_BINARY(Lanes, Lanes, double, -)
-DIFMESH_BINARY(Lanes, Lanes, double, *)
-DIFMESH_BINARY(Lanes, Lanes, double, /)
-DIFMESH_BINARY(LaneMask, Lanes, double, <)
-DIFMESH_BINARY(LaneMask, Lanes, double, <=)
-DIFMESH_BINARY(LaneMask, Lanes, double, >)
-DIFMESH_BINARY(LaneMask, Lanes, double, >=)
-DIFMESH_BINARY(LaneMask, Lanes, double, ==)
-DIFMESH_BINARY(LaneBits, LaneBits, unsigned long long, +)
-DIFMESH_BINARY(LaneBits, LaneBits, unsigned long long, *)
-DIFMESH_BINARY(LaneBits, LaneBits, unsigned long long, ^)
+DIFMESH_BINARY(LanesOf, LanesOf, double, +)
+DIFMESH_BINARY(LanesOf, LanesOf, double, -)
+DIFMESH_BINARY(LanesOf, LanesOf, double, *)
+DIFMESH_BINARY(LanesOf, LanesOf, double, /)
+DIFMESH_BINARY(MasksOf, LanesOf, double, <)
+DIFMESH_BINARY(MasksOf, LanesOf, double, <=)
+DIFMESH_BINARY(MasksOf, LanesOf, double, >)
+DIFMESH_BINARY(MasksOf, LanesOf, double, >=)
+DIFMESH_BINARY(MasksOf, LanesOf, double, ==)
+DIFMESH_BINARY(BitLanesOf, BitLanesOf, unsigned long long, +)
+DIFMESH_BINARY(BitLanesOf, BitLanesOf, unsigned long long, *)
+DIFMESH_BINARY(BitLanesOf, BitLanesOf, unsigned long long, ^)
 #undef DIFMESH_BINARY
-[[gnu::always_inline]] inline LaneMask operator&(const LaneMask& a, const LaneMask& b) {
-  DIFMESH_FOR_PARTS(LaneMask, a.part[n] & b.part[n]);
+template <int kCount>
+[[gnu::always_inline]] inline MasksOf<kCount> operator&(const MasksOf<kCount>& a,
+                                                        const MasksOf<kCount>& b) {
+  DIFMESH_FOR_PARTS(MasksOf, a.part[n] & b.part[n]);
 }
-[[gnu::always_inline]] inline LaneMask operator|(const LaneMask& a, const LaneMask& b) {
-  DIFMESH_FOR_PARTS(LaneMask, a.part[n] | b.part[n]);
+template <int kCount>
+[[gnu::always_inline]] inline MasksOf<kCount> operator|(const MasksOf<kCount>& a,
+                                                        const MasksOf<kCount>& b) {
+  DIFMESH_FOR_PARTS(MasksOf, a.part[n] | b.part[n]);
 }
-[[gnu::always_inline]] inline LaneBits operator|(const LaneBits& a, const LaneBits& b) {
-  DIFMESH_FOR_PARTS(LaneBits, a.part[n] | b.part[n]);
+template <int kCount>
+[[gnu::always_inline]] inline BitLanesOf<kCount> operator|(const BitLanesOf<kCount>& a,
+                                                           const BitLanesOf<kCount>& b) {
+  DIFMESH_FOR_PARTS(BitLanesOf, a.part[n] | b.part[n]);
 }
-[[gnu::always_inline]] inline LaneBits operator>>(const LaneBits& a, int by) {
-  DIFMESH_FOR_PARTS(LaneBits, a.part[n] >> by);
+template <int kCount>
+[[gnu::always_inline]] inline BitLanesOf<kCount> operator>>(const BitLanesOf<kCount>& a, int by) {
+  DIFMESH_FOR_PARTS(BitLanesOf, a.part[n] >> by);
 }
-[[gnu::always_inline]] inline LaneBits operator<<(const LaneBits& a, int by) {
-  DIFMESH_FOR_PARTS(LaneBits, a.part[n] << by);
+template <int kCount>
+[[gnu::always_inline]] inline BitLanesOf<kCount> operator<<(const BitLanesOf<kCount>& a, int by) {
+  DIFMESH_FOR_PARTS(BitLanesOf, a.part[n] << by);
 }
-[[gnu::always_inline]] inline Lanes operator-(const Lanes& a) {
-  DIFMESH_FOR_PARTS(Lanes, -a.part[n]);
+template <int kCount>
+[[gnu::always_inline]] inline LanesOf<kCount> operator-(const LanesOf<kCount>& a) {
+  DIFMESH_FOR_PARTS(LanesOf, -a.part[n]);
 }
 
 template <class R>
 struct MaskOf {
   using type = bool;
 };
-template <>
-struct MaskOf<Lanes> {
-  using type = LaneMask;
+template <int kCount>
+struct MaskOf<LanesOf<kCount>> {
+  using type = MasksOf<kCount>;
 };
 /// What comparisons of R give.
 template <class R>
@@ -117,23 +145,28 @@ using Mask = typename MaskOf<R>::type;
 [[gnu::always_inline]] inline double select(bool choose, double yes, double no) {
   return choose ? yes : no;
 }
-[[gnu::always_inline]] inline Lanes select(const LaneMask& choose, const Lanes& yes,
-                                           const Lanes& no) {
-  DIFMESH_FOR_PARTS(Lanes, choose.part[n] ? yes.part[n] : no.part[n]);
+template <int kCount>
+[[gnu::always_inline]] inline LanesOf<kCount> select(const MasksOf<kCount>& choose,
+                                                     const LanesOf<kCount>& yes,
+                                                     const LanesOf<kCount>& no) {
+  DIFMESH_FOR_PARTS(LanesOf, choose.part[n] ? yes.part[n] : no.part[n]);
 }
 
-[[gnu::always_inline]] inline Lanes broadcast(double value) {
-  DIFMESH_FOR_PARTS(Lanes, Part{} + value);
-}
 template <class R>
 [[gnu::always_inline]] inline R constant(double value) {
   if constexpr (sizeof(R) == sizeof(double)) {
     return value;
-  } else if constexpr (sizeof(R) == sizeof(Lanes)) {
-    return broadcast(value);
   } else {
-    return {broadcast(value), broadcast(value)};
+    constexpr int kCount = static_cast<int>(sizeof(R) / sizeof(Part));
+    R result;
+    for (int n = 0; n < kCount; ++n) {
+      result.part[n] = Part{} + value;
+    }
+    return result;
   }
+}
+[[gnu::always_inline]] inline Lanes broadcast(double value) {
+  return constant<Lanes>(value);
 }
 
 // As std::min and std::max: the first argument where neither is smaller.
@@ -153,9 +186,10 @@ template <class R>
 [[gnu::always_inline]] inline double magnitude(double value) {
   return __builtin_fabs(value);
 }
-[[gnu::always_inline]] inline Lanes magnitude(const Lanes& value) {
+template <int kCount>
+[[gnu::always_inline]] inline LanesOf<kCount> magnitude(const LanesOf<kCount>& value) {
   const PartBits sign = PartBits{} + (1ULL << 63);
-  DIFMESH_FOR_PARTS(Lanes, (Part)((PartBits)value.part[n] & ~sign));
+  DIFMESH_FOR_PARTS(LanesOf, (Part)((PartBits)value.part[n] & ~sign));
 }
 
 [[gnu::always_inline]] inline double square_root(double value) {
@@ -176,8 +210,9 @@ template <class R>
   return result;
 #endif
 }
-[[gnu::always_inline]] inline Lanes square_root(const Lanes& value) {
-  DIFMESH_FOR_PARTS(Lanes, square_root_of_part(value.part[n]));
+template <int kCount>
+[[gnu::always_inline]] inline LanesOf<kCount> square_root(const LanesOf<kCount>& value) {
+  DIFMESH_FOR_PARTS(LanesOf, square_root_of_part(value.part[n]));
 }
 
 /// One bit per lane of the mask.
@@ -199,9 +234,10 @@ template <class R>
   return bits;
 #endif
 }
-[[gnu::always_inline]] inline unsigned bits_of(const LaneMask& mask) {
+template <int kCount>
+[[gnu::always_inline]] inline unsigned bits_of(const MasksOf<kCount>& mask) {
   unsigned bits = 0;
-  for (int n = 0; n < kParts; ++n) {
+  for (int n = 0; n < kCount; ++n) {
     bits |= bits_of_part(mask.part[n]) << (n * kPartLanes);
   }
   return bits;
@@ -233,16 +269,22 @@ template <class M>
 [[gnu::always_inline]] inline bool opposite(bool mask) {
   return !mask;
 }
-[[gnu::always_inline]] inline LaneMask opposite(const LaneMask& mask) {
-  DIFMESH_FOR_PARTS(LaneMask, ~mask.part[n]);
+template <int kCount>
+[[gnu::always_inline]] inline MasksOf<kCount> opposite(const MasksOf<kCount>& mask) {
+  DIFMESH_FOR_PARTS(MasksOf, ~mask.part[n]);
 }
 
-[[gnu::always_inline]] inline Lanes load(const double* values) {
-  Lanes result;
+template <class R>
+[[gnu::always_inline]] inline R load_lanes(const double* values) {
+  R result;
   __builtin_memcpy(&result, values, sizeof result);
   return result;
 }
-[[gnu::always_inline]] inline void store(const Lanes& lanes, double* values) {
+[[gnu::always_inline]] inline Lanes load(const double* values) {
+  return load_lanes<Lanes>(values);
+}
+template <int kCount>
+[[gnu::always_inline]] inline void store(const LanesOf<kCount>& lanes, double* values) {
   __builtin_memcpy(values, &lanes, sizeof lanes);
 }
 
@@ -251,9 +293,9 @@ template <class R>
 struct BitsOf {
   using type = unsigned long long;
 };
-template <>
-struct BitsOf<Lanes> {
-  using type = LaneBits;
+template <int kCount>
+struct BitsOf<LanesOf<kCount>> {
+  using type = BitLanesOf<kCount>;
 };
 
 /// True if any bit is set.
