@@ -50,38 +50,6 @@ template <class V>
 }
 #endif
 
-// Bits of the lanes that are negative.
-template <class I>
-[[gnu::always_inline]] inline unsigned negative_bits(const I& values) {
-  constexpr int kCount = static_cast<int>(sizeof(I) / sizeof(values[0]));
-  unsigned bits = 0;
-  for (int n = 0; n < kCount; ++n) {
-    bits |= static_cast<unsigned>(values[n] < 0) << n;
-  }
-  return bits;
-}
-#if defined(__AVX__)
-[[gnu::always_inline]] inline unsigned negative_bits(const Ints8& values) {
-  return static_cast<unsigned>(_mm256_movemask_ps((__m256)values));
-}
-[[gnu::always_inline]] inline unsigned negative_bits(const Longs4& values) {
-  return static_cast<unsigned>(_mm256_movemask_pd((__m256d)values));
-}
-#endif
-#if defined(__AVX512DQ__)
-[[gnu::always_inline]] inline unsigned negative_bits(const Longs8& values) {
-  return _mm512_movepi64_mask((__m512i)values);
-}
-#endif
-#if defined(__SSE2__)
-[[gnu::always_inline]] inline unsigned negative_bits(const Ints4& values) {
-  return static_cast<unsigned>(_mm_movemask_ps((__m128)values));
-}
-[[gnu::always_inline]] inline unsigned negative_bits(const Longs2& values) {
-  return static_cast<unsigned>(_mm_movemask_pd((__m128d)values));
-}
-#endif
-
 /// Heights of 3x8 columns, `across` apart and next to each other along x.
 struct HeightBlock {
   double height[3][kAbreast];
@@ -122,9 +90,7 @@ template <class T>
         } else {
           value[n] = fractions<T, Wide>(cells);
         }
-        const I places = (I)cells;
-        const Filled<I> now{(I{} + (order_of(task.least_full) - 1)) - places,
-                            (I{} + order_of(task.most_empty)) - places};
+        const Filled<I> now = filled_at(task, (I)cells);
         wrong |= n == 0 ? ~now.full : disorder(before, now);
         before = now;
       }

@@ -172,12 +172,14 @@ struct Filled {
   I full;
   I some;
 };
-template <class T, class V>
-[[gnu::always_inline]] inline Filled<Order<V>> filled(const PlaneTask<T>& task, const V& values) {
-  using I = Order<V>;
-  const I places = order<T>(values);
+template <class T, class I>
+[[gnu::always_inline]] inline Filled<I> filled_at(const PlaneTask<T>& task, const I& places) {
   return {(I{} + (order_of(task.least_full) - 1)) - places,
           (I{} + order_of(task.most_empty)) - places};
+}
+template <class T, class V>
+[[gnu::always_inline]] inline Filled<Order<V>> filled(const PlaneTask<T>& task, const V& values) {
+  return filled_at(task, order<T>(values));
 }
 // Negative where full cells do not come before all others, and empty ones after all others, from the first vector
 // of cells to the next.
@@ -215,23 +217,40 @@ struct ThreeRows<float> {
 };
 #endif
 
+// Bits of the lanes that are negative.
 template <class I>
-[[gnu::always_inline]] inline bool any_negative(const I& values) {
-  constexpr int kCount = static_cast<int>(sizeof(I) / sizeof(values[0]));
-  auto sign = values[0];
-  for (int n = 1; n < kCount; ++n) {
-    sign |= values[n];
-  }
-  return sign < 0;
-}
+[[gnu::always_inline]] inline unsigned negative_bits(const I& values) {
+  constexpr bool kOfFourBytes = sizeof(values[0]) == 4;
 #if defined(__AVX512DQ__)
-[[gnu::always_inline]] inline bool any_negative(const Ints16& values) {
-  return _mm512_movepi32_mask((__m512i)values) != 0;
-}
-[[gnu::always_inline]] inline bool any_negative(const Ints8& values) {
-  return _mm256_movepi32_mask((__m256i)values) != 0;
-}
+  if constexpr (sizeof(I) == 64) {
+    return kOfFourBytes ? static_cast<unsigned>(_mm512_movepi32_mask((__m512i)values))
+                        : static_cast<unsigned>(_mm512_movepi64_mask((__m512i)values));
+  }
 #endif
+#if defined(__AVX__)
+  if constexpr (sizeof(I) == 32) {
+    return static_cast<unsigned>(kOfFourBytes ? _mm256_movemask_ps((__m256)values)
+                                              : _mm256_movemask_pd((__m256d)values));
+  }
+#endif
+  constexpr int kLaneCount = static_cast<int>(sizeof(I) / sizeof(values[0]));
+  unsigned bits = 0;
+#if defined(__SSE2__)
+  constexpr int kPieces = static_cast<int>(sizeof(I) / sizeof(__m128i));
+  __m128i piece[static_cast<std::size_t>(kPieces)];
+  __builtin_memcpy(piece, &values, sizeof piece);
+  for (int n = 0; n < kPieces; ++n) {
+    bits |= static_cast<unsigned>(kOfFourBytes ? _mm_movemask_ps((__m128)piece[n])
+                                               : _mm_movemask_pd((__m128d)piece[n]))
+            << (n * kLaneCount / kPieces);
+  }
+#else
+  for (int n = 0; n < kLaneCount; ++n) {
+    bits |= static_cast<unsigned>(values[n] < 0) << n;
+  }
+#endif
+  return bits;
+}
 
 // Nine columns that run across x, all consistent? `along` leads from the material's end to the other;
 // rows of three columns lie `across` apart. Heights: [0] along x, [1] along `across`.
@@ -260,7 +279,8 @@ template <class T>
   }
   bool consistent = true;
   for (int v = 0; v < Rows::kVectors; ++v) {
-    consistent = consistent & !any_negative((wrong[v] | before[v].some) & Rows::three_of_four());
+    consistent =
+        consistent & (negative_bits((wrong[v] | before[v].some) & Rows::three_of_four()) == 0);
   }
   if (!consistent) {
     return false;
@@ -304,7 +324,7 @@ template <bool kMaterialLow, class T>
       wrong |= disorder(first, next) | (~first.full & is_first) | (next.some & is_last);
     }
   }
-  if (any_negative(wrong)) {
+  if (negative_bits(wrong) != 0) {
     return false;
   }
   const T* low_end = centre - kReach;
