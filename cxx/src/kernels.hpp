@@ -55,11 +55,10 @@ struct WindowBatch {
   unsigned undone;  ///< edges where the share filled may not be monotone: no result
 };
 
-/// For plane_fit.hpp: the neighbours that are there, and the cell itself. What is past `count` must be zero.
+/// For plane_fit.hpp: the neighbours that are there, and the cell itself. What is past `count` must be numbers.
 inline constexpr int kFitCells = 32;
 struct FitTask {
   double fraction[kFitCells];
-  double weight[kFitCells];    ///< 1
   double shift[3][kFitCells];  ///< from the cell, in cells
   int count;
   double centre;  ///< the fraction of the cell itself

@@ -30,12 +30,21 @@ namespace difmesh::detail {
 #endif
 }
 
+/// Of so many words, most of which are zero.
+[[nodiscard]] inline std::int64_t count_bits(const std::uint64_t* words, std::int64_t count) {
+  std::int64_t bits = 0;
+  for (std::int64_t w = 0; w < count; ++w) {
+    bits += words[w] != 0 ? count_bits(words[w]) : 0;
+  }
+  return bits;
+}
+
 /// Bits [0, bit) of a word; bit in 0..63.
 [[nodiscard]] constexpr std::uint64_t below(int bit) {
   return (std::uint64_t{1} << bit) - 1;
 }
 
-/// Rows of bits along x over a box of nodes.
+/// Rows of bits along x over a box of nodes. In a complete row the bits of nodes that do not exist are zero.
 class NodeBits {
  public:
   NodeBits() = default;
@@ -101,6 +110,16 @@ class NodeBits {
     return *kind != Kind::mixed && *kind == kind[-1] && *kind == kind[1] && *kind == kind[-slab] &&
            *kind == kind[slab];
   }
+  /// Crossed dual edges along x that start at the nodes of word w of a row.
+  [[nodiscard, gnu::always_inline]] std::uint64_t crossed_x(const std::uint64_t* row,
+                                                            std::int64_t w) const {
+    const bool is_last = w + 1 == words_;
+    std::uint64_t crossed = row[w] ^ (row[w] >> 1 | (is_last ? 0 : row[w + 1] << 63));
+    if (w == 0) {
+      crossed &= ~std::uint64_t{0} << first_[0];
+    }
+    return is_last ? crossed & below(static_cast<int>(last_[0] % 64)) : crossed;
+  }
   /// Bits of word w whose local index is in [from, to].
   [[nodiscard]] static std::uint64_t range(std::int64_t w, std::int64_t from, std::int64_t to) {
     const std::int64_t low = from - 64 * w;
@@ -144,11 +163,6 @@ struct EdgeWord {
 
   [[nodiscard]] std::uint64_t any() const { return x | y | z; }
   [[nodiscard]] int count() const { return count_bits(x) + count_bits(y) + count_bits(z); }
-  /// Crossed edges that start at nodes below the bit.
-  [[nodiscard]] int count_below(int bit) const {
-    const std::uint64_t mask = below(bit);
-    return count_bits(x & mask) + count_bits(y & mask) + count_bits(z & mask);
-  }
 };
 
 /// The crossed dual edges that start at the nodes of one row.
@@ -161,22 +175,7 @@ class EdgeRow {
         next_k_(k < nodes.last()[2] ? nodes.row(j, k + 1) : here_) {}
 
   [[nodiscard, gnu::always_inline]] EdgeWord word(std::int64_t w) const {
-    const std::uint64_t bits = here_[w];
-    const std::uint64_t carry = w + 1 < nodes_->words() ? here_[w + 1] << 63 : 0;
-    const std::uint64_t x = bits ^ (bits >> 1 | carry);
-    const std::uint64_t y = bits ^ next_j_[w];
-    const std::uint64_t z = bits ^ next_k_[w];
-    if ((x | y | z) == 0) {
-      return {};
-    }
-    const Index3& last = nodes_->last();
-    const std::uint64_t from = w == 0 ? ~std::uint64_t{0} << nodes_->first()[0] : ~std::uint64_t{0};
-    if (w + 1 < nodes_->words()) {
-      return {x & from, y & from, z & from};
-    }
-    const std::uint64_t before_last = from & below(static_cast<int>(last[0] % 64));
-    const std::uint64_t valid = before_last | std::uint64_t{1} << (last[0] % 64);
-    return {x & before_last, y & valid, z & valid};
+    return {nodes_->crossed_x(here_, w), here_[w] ^ next_j_[w], here_[w] ^ next_k_[w]};
   }
 
  private:

@@ -16,7 +16,6 @@ Vec3 fit_to_neighbours(const NeighbourFractions& hood, const Vec3& start) {
     }
     const int place = task.count++;
     task.fraction[place] = hood.fraction[k][j][i];
-    task.weight[place] = 1.0;
     task.shift[0][place] = i - 1;
     task.shift[1][place] = j - 1;
     task.shift[2][place] = k - 1;

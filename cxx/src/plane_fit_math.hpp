@@ -12,7 +12,9 @@ class PlaneSearch {
       : centre_(cells.centre), groups_((cells.count + kLanes - 1) / kLanes) {
     for (int g = 0; g < groups_; ++g) {
       fraction_[g] = load(cells.fraction + g * kLanes);
-      weight_[g] = load(cells.weight + g * kLanes);
+      for (int n = 0; n < kLanes; ++n) {
+        is_there_[g].set(n, g * kLanes + n < cells.count ? 1.0 : 0.0);
+      }
       for (int t = 0; t < 3; ++t) {
         shift_[t][g] = load(cells.shift[t] + g * kLanes);
       }
@@ -111,7 +113,7 @@ class PlaneSearch {
     Lanes sum = broadcast(0.0);
     for (int g = 0; g < groups_; ++g) {
       const Lanes shift = m.x * shift_[0][g] + m.y * shift_[1][g] + m.z * shift_[2][g];
-      r.group[g] = (cube_share(all, a - shift) - fraction_[g]) * weight_[g];
+      r.group[g] = (cube_share(all, a - shift) - fraction_[g]) * is_there_[g];
       sum = sum + r.group[g] * r.group[g];
     }
     return total(sum);
@@ -171,7 +173,7 @@ class PlaneSearch {
   double centre_;
   int groups_;
   Lanes fraction_[kGroups];
-  Lanes weight_[kGroups];
+  Lanes is_there_[kGroups];  // 1 or 0
   Lanes shift_[3][kGroups];
 };
 

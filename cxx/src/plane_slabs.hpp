@@ -142,17 +142,17 @@ class PlaneSlabs {
     }
     const EdgeEnds ends(nodes, j, k);
     std::uint64_t* const flags = slab.flags.data() + (j - first_) * words_;
-    RowCounts counts;
     for (std::int64_t w = 0; w < words_; ++w) {
       flags[w] = ends.word(w) & cells_.inner(w);
-      counts.inner += flags[w] != 0 ? count_bits(flags[w]) : 0;
     }
+    RowCounts counts;
+    counts.inner = count_bits(flags, words_);
     counts.all = counts.inner;
     if (has_outermost) {
       const std::uint64_t* const outermost = grid_.planes().flags(number);
+      counts.all += count_bits(outermost, words_);
       for (std::int64_t w = 0; w < words_; ++w) {
         flags[w] |= outermost[w];
-        counts.all += outermost[w] != 0 ? count_bits(outermost[w]) : 0;
       }
     }
     return counts;
@@ -170,10 +170,9 @@ class PlaneSlabs {
     // The first cell comes before the inner ones, all other outermost ones after.
     const std::uint64_t* const outermost = grid_.planes().flags(number);
     const UnitPlane* const from = grid_.planes().planes(number);
-    std::int64_t count = 0;
+    const std::int64_t count = count_bits(outermost, words_);
     for (std::int64_t w = 0; w < words_; ++w) {
       inner_[static_cast<std::size_t>(w)] = flags[w] & cells_.inner(w);
-      count += count_bits(outermost[w]);
     }
     const std::int64_t first = static_cast<std::int64_t>(outermost[0] >> 1 & 1);
     std::copy_n(from, first, planes);

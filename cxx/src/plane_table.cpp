@@ -63,11 +63,7 @@ class Flagger {
     if ((at_ends & 4) != 0) {
       set(row, cells_.last[0]);
     }
-    std::uint32_t count = 0;
-    for (std::int64_t w = 0; w < words; ++w) {
-      count += row[w] != 0 ? static_cast<std::uint32_t>(count_bits(row[w])) : 0;
-    }
-    return count;
+    return static_cast<std::uint32_t>(count_bits(row, words));
   }
 
  private:
@@ -174,12 +170,9 @@ PlaneTable::PlaneTable(const NodeBits& nodes, const std::vector<std::uint32_t>& 
 std::int64_t PlaneTable::rank(const Index3& node) const {
   const std::int64_t row = row_of(node);
   const std::uint64_t* const words = flags(row);
-  std::int64_t number = starts_[static_cast<std::size_t>(row)].planes;
   const std::int64_t word = node[0] / 64;
-  for (std::int64_t w = 0; w < word; ++w) {
-    number += count_bits(words[w]);
-  }
-  return number + count_bits(words[word] & below(static_cast<int>(node[0] % 64)));
+  return starts_[static_cast<std::size_t>(row)].planes + count_bits(words, word) +
+         count_bits(words[word] & below(static_cast<int>(node[0] % 64)));
 }
 
 PlaneTable make_planes(const BlockField& field, const NodeBits& nodes,
@@ -205,6 +198,7 @@ PlaneTable make_planes(const BlockField& field, const NodeBits& nodes,
         }
       }
     });
+    // Flags are found once more where there are some, rather than kept for all rows.
     table = PlaneTable(nodes, row_counts);
     if (table.size() == 0) {
       return;

@@ -67,12 +67,7 @@ class EdgeEnds {
     const std::uint64_t here = here_[w];
     const std::uint64_t across =
         ((here ^ south_[w]) | (here ^ north_[w])) | ((here ^ below_[w]) | (here ^ above_[w]));
-    const std::uint64_t from_east = w + 1 < nodes_->words() ? here_[w + 1] << 63 : 0;
-    std::uint64_t crossed = here ^ (here >> 1 | from_east);
-    const std::int64_t last_start = nodes_->last()[0] - 1;
-    if (w == 0 || w >= last_start / 64) {
-      crossed &= NodeBits::range(w, nodes_->first()[0], last_start);
-    }
+    const std::uint64_t crossed = nodes_->crossed_x(here_, w);
     const std::uint64_t from_west = w > 0 ? (here_[w - 1] >> 63 ^ here) & 1 : 0;
     return across | crossed | crossed << 1 | from_west;
   }

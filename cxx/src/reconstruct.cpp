@@ -59,7 +59,7 @@ Reconstruction run(const BlockField& field, const Options& options) {
   report.seconds.count = watch.lap();
 
   detail::place_vertices(grid, options, counts.vertex_start, phases, mesh, report);
-  watch.lap();
+  watch.lap();  // of planes and of vertices, which take turns: they are in the report
 
   detail::connect(grid, counts, phases, mesh);
   if (report.closed) {

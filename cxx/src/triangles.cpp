@@ -321,18 +321,6 @@ bool is_bare_cell_row(const NodeBits& nodes, std::int64_t j, std::int64_t k) {
          nodes.are_alike(above, above + 1);
 }
 
-// No vertex on the four rows of nodes: no triangle either.
-bool is_bare(const NodeBits& nodes, std::int64_t j, std::int64_t k,
-             const std::vector<std::int64_t>& vertex_start) {
-  for (const std::int64_t row : {nodes.row_index(j, k), nodes.row_index(j, k + 1)}) {
-    const auto n = static_cast<std::size_t>(row);
-    if (vertex_start[n] != vertex_start[n + 2]) {
-      return false;
-    }
-  }
-  return true;
-}
-
 }  // namespace
 
 MeshCounts count_mesh(const DualGrid& grid, Phases& phases) {
@@ -397,7 +385,7 @@ void connect(const DualGrid& grid, const MeshCounts& counts, Phases& phases, Mes
     for (std::int64_t row = begin; row < end; ++row) {
       const std::int64_t j = row % row_length;
       const std::int64_t k = row / row_length;
-      if (!exists(nodes, j, k) || is_bare(nodes, j, k, counts.vertex_start)) {
+      if (!exists(nodes, j, k) || is_bare_cell_row(nodes, j, k)) {
         continue;
       }
       const CellRow cells(grid, j, k);

@@ -375,7 +375,8 @@ void place_vertices(const DualGrid& grid, const Options& options,
               : place_rows<T>(placer, row_start, begin, end, mesh);
     });
   });
-  Placed all;
+  double all_seconds = 0.0;
+  double plane_seconds = 0.0;
   std::int64_t steps = 0;
   for (const Placed& portion : portions) {
     const EdgeCounts& counts = portion.edges;
@@ -386,8 +387,8 @@ void place_vertices(const DualGrid& grid, const Options& options,
     steps += counts.steps;
     report.planes += portion.planes;
     portion.sources.add_to(report);
-    all.plane_seconds += portion.plane_seconds;
-    all.seconds += portion.seconds;
+    plane_seconds += portion.plane_seconds;
+    all_seconds += portion.seconds;
   }
   if (report.solved_edges > 0) {
     report.newton_steps_mean =
@@ -395,7 +396,7 @@ void place_vertices(const DualGrid& grid, const Options& options,
   }
   // Planes and vertices take turns in each thread: the wall time is shared out as theirs is.
   const double seconds = watch.lap();
-  const double for_planes = all.seconds > 0.0 ? seconds * all.plane_seconds / all.seconds : 0.0;
+  const double for_planes = all_seconds > 0.0 ? seconds * plane_seconds / all_seconds : 0.0;
   report.seconds.normals += for_planes;
   report.seconds.vertices += seconds - for_planes;
 }
