@@ -29,12 +29,12 @@ DracoOptions draco_options(const SurfaceOutput& output, double cell_size) {
   return draco;
 }
 
-std::string written(std::int64_t bytes, int bits, double error) {
-  std::string text = count_of(bytes, "byte");
-  if (bits > 0) {
-    text += ", positions of " + std::to_string(bits) + " bits";
+std::string written(const MeshFileReport& report) {
+  std::string text = count_of(report.bytes, "byte");
+  if (report.position_bits > 0) {
+    text += ", positions of " + std::to_string(report.position_bits) + " bits";
   }
-  return text + ", coordinates off by " + rounded(error, 3) + " at most";
+  return text + ", coordinates off by " + rounded(report.position_error, 3) + " at most";
 }
 
 std::string write_as_gltf(const SurfaceOutput& output, const ScalarMesh& surface,
@@ -53,8 +53,7 @@ std::string write_as_gltf(const SurfaceOutput& output, const ScalarMesh& surface
   }
   options.up = output.up.value_or(options.up);
   options.metres_per_unit = output.metres_per_unit.value_or(options.metres_per_unit);
-  const MeshFileReport report = write_gltf(output.path, surface.mesh, options);
-  return written(report.bytes, report.position_bits, report.position_error);
+  return written(write_gltf(output.path, surface.mesh, options));
 }
 
 void add_draco_options(CLI::App& command, SurfaceOutput& output) {
@@ -178,8 +177,7 @@ std::string write_surface(const SurfaceOutput& output, const ScalarMesh& surface
     WriteDrcOptions options;
     options.scalars = surface.scalars;
     options.draco = draco_options(output, cell_size);
-    const MeshFileReport report = write_drc(output.path, surface.mesh, options);
-    return written(report.bytes, report.position_bits, report.position_error);
+    return written(write_drc(output.path, surface.mesh, options));
   }
   WriteMeshOptions options;
   options.scalars = surface.scalars;
