@@ -226,8 +226,7 @@ TEST_CASE("meshes from arrays are measured as the core does") {
                                static_cast<std::int64_t>(mesh.triangles.size()), &made) == DIF_OK);
   const test::MeshHandle handle(made);
   CHECK(test::same_bits(test::mesh_of(made), mesh));
-  dif_measure facts = test::prepared(dif_measure_init);
-  REQUIRE(dif_mesh_measure(made, &facts) == DIF_OK);
+  const dif_measure facts = test::measured(made);
   const difmesh::Measure expected = difmesh::measure(mesh);
   CHECK(facts.vertices == expected.vertices);
   CHECK(facts.edges == expected.edges);

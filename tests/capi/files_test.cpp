@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "handles.hpp"
+#include "support/differences.hpp"
 
 namespace {
 
@@ -205,10 +206,8 @@ TEST_CASE("surfaces go into glTF and Draco files and back") {
       continue;
     }
     const auto again = read_mesh(folder / name);
-    dif_measure facts = c::prepared(dif_measure_init);
-    dif_measure expected = c::prepared(dif_measure_init);
-    REQUIRE(dif_mesh_measure(again.get(), &facts) == DIF_OK);
-    REQUIRE(dif_mesh_measure(mesh.get(), &expected) == DIF_OK);
+    const dif_measure facts = c::measured(again.get());
+    const dif_measure expected = c::measured(mesh.get());
     CHECK(facts.vertices == expected.vertices);
     CHECK(facts.triangles == expected.triangles);
     CHECK(facts.closed == 1);
@@ -267,12 +266,7 @@ TEST_CASE("Draco's options set the error and the size") {
   const TempFolder folder;
   const auto mesh = surface_with_heights();
   const difmesh::Mesh before = c::mesh_of(mesh.get());
-  dif_measure facts = c::prepared(dif_measure_init);
-  REQUIRE(dif_mesh_measure(mesh.get(), &facts) == DIF_OK);
-  double side = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    side = std::max(side, facts.high[axis] - facts.low[axis]);
-  }
+  const double side = c::longest_side(c::measured(mesh.get()));
   dif_mesh_write_options options = c::prepared(dif_mesh_write_options_init);
   options.draco = 1;
   options.draco_method = DIF_DRACO_SEQUENTIAL;
@@ -284,12 +278,7 @@ TEST_CASE("Draco's options set the error and the size") {
     }
     const difmesh::Mesh after = c::mesh_of(read_mesh(folder / "blob.glb").get());
     REQUIRE(after.triangles == before.triangles);
-    double error = 0.0;
-    for (std::size_t v = 0; v < before.positions.size(); ++v) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        error = std::max(error, std::abs(after.positions[v][axis] - before.positions[v][axis]));
-      }
-    }
+    const double error = c::largest_difference(after.positions, before.positions);
     const double half_step = side / (2.0 * (std::exp2(bits) - 1.0));
     CHECK(error <= half_step + 1e-6 * side);
     CHECK(error >= 0.5 * half_step);

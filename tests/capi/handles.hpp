@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -29,6 +30,20 @@ template <class Struct>
   Struct result;
   REQUIRE(init(&result, sizeof result) == DIF_OK);
   return result;
+}
+
+[[nodiscard]] inline dif_measure measured(const dif_mesh* mesh) {
+  dif_measure facts = prepared(dif_measure_init);
+  REQUIRE(dif_mesh_measure(mesh, &facts) == DIF_OK);
+  return facts;
+}
+/// Of the bounding box.
+[[nodiscard]] inline double longest_side(const dif_measure& facts) {
+  double side = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    side = std::max(side, facts.high[axis] - facts.low[axis]);
+  }
+  return side;
 }
 
 [[nodiscard]] inline dif_field c_field(const void* data, std::int32_t type, const Index3& dims) {

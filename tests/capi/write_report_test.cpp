@@ -12,6 +12,7 @@
 
 #include "handles.hpp"
 #include "io/files.hpp"
+#include "support/differences.hpp"
 
 namespace {
 
@@ -39,18 +40,6 @@ dif_mesh_write_report write_reported(const c::MeshHandle& mesh, const std::files
   CHECK(report.struct_size == sizeof report);
   CHECK(report.bytes == static_cast<std::int64_t>(std::filesystem::file_size(path)));
   return report;
-}
-
-double largest_difference(const difmesh::Array<difmesh::Vec3>& a,
-                          const difmesh::Array<difmesh::Vec3>& b) {
-  REQUIRE(a.size() == b.size());
-  double largest = 0.0;
-  for (std::size_t v = 0; v < a.size(); ++v) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      largest = std::max(largest, std::abs(a[v][axis] - b[v][axis]));
-    }
-  }
-  return largest;
 }
 
 // Three corners per triangle, as they are in the bytes of an STL file.
@@ -113,7 +102,7 @@ TEST_CASE("a report tells what is in tables of numbers") {
     if (stl) {
       const std::string bytes = ::test::read_bytes(folder / name);
       CHECK(report.position_error > 0.0);
-      CHECK(report.position_error == largest_difference(stl_corners(bytes), corners_of(before)));
+      CHECK(report.position_error == c::largest_difference(stl_corners(bytes), corners_of(before)));
     } else {
       CHECK(report.position_error == 0.0);
       CHECK(read_mesh(folder / name).positions == before.positions);
@@ -131,14 +120,10 @@ TEST_CASE("a report tells what glTF and Draco made of a mesh") {
   const TempFolder folder;
   const auto mesh = surface();
   const difmesh::Mesh before = c::mesh_of(mesh.get());
-  dif_measure facts = c::prepared(dif_measure_init);
-  REQUIRE(dif_mesh_measure(mesh.get(), &facts) == DIF_OK);
-  double side = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    side = std::max(side, facts.high[axis] - facts.low[axis]);
-  }
+  const dif_measure facts = c::measured(mesh.get());
+  const double side = c::longest_side(facts);
   const auto found_error = [&](const char* name) {
-    return largest_difference(read_mesh(folder / name).positions, before.positions);
+    return c::largest_difference(read_mesh(folder / name).positions, before.positions);
   };
   dif_mesh_write_options options = c::prepared(dif_mesh_write_options_init);
   options.draco_method = DIF_DRACO_SEQUENTIAL;  // the order of the vertices is kept

@@ -17,6 +17,7 @@
 #include "io/surfaces.hpp"
 #include "program.hpp"
 #include "roughness.hpp"
+#include "support/differences.hpp"
 
 namespace {
 
@@ -27,6 +28,7 @@ using difmesh::Vec3;
 using difmesh::test::check_fails;
 using difmesh::test::check_succeeds;
 using difmesh::test::fact;
+using difmesh::test::largest_difference;
 using difmesh::test::OwnedField;
 using difmesh::test::run_program;
 using test::Glb;
@@ -57,17 +59,6 @@ struct Place {
     return difmesh::reconstruct(drop.view(), kGrid, options).mesh;
   }
 };
-
-double largest_difference(const difmesh::Array<Vec3>& a, const difmesh::Array<Vec3>& b) {
-  REQUIRE(a.size() == b.size());
-  double largest = 0.0;
-  for (std::size_t v = 0; v < a.size(); ++v) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      largest = std::max(largest, std::abs(a[v][axis] - b[v][axis]));
-    }
-  }
-  return largest;
-}
 
 }  // namespace
 

@@ -10,6 +10,7 @@
 #include "difmesh/io/mesh_file.hpp"
 #include "difmesh/measure.hpp"
 #include "io/surfaces.hpp"
+#include "support/differences.hpp"
 
 namespace {
 
@@ -19,20 +20,8 @@ using difmesh::Mesh;
 using difmesh::ScalarMesh;
 using difmesh::Vec3;
 using difmesh::VertexScalars;
+using difmesh::test::largest_difference;
 using test::TempFolder;
-
-double largest_difference(const Vec3& a, const Vec3& b) {
-  return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
-}
-
-double largest_difference(const Mesh& a, const Mesh& b) {
-  REQUIRE(a.positions.size() == b.positions.size());
-  double largest = 0.0;
-  for (std::size_t v = 0; v < a.positions.size(); ++v) {
-    largest = std::max(largest, largest_difference(a.positions[v], b.positions[v]));
-  }
-  return largest;
-}
 
 /// Vertices that edge ids match are at most `bound` apart in each coordinate.
 void check_by_ids(const Mesh& back, const Mesh& mesh, double bound) {
@@ -135,10 +124,12 @@ TEST_CASE("the error of draco holds away from the origin too") {
     CAPTURE(place);
     const Mesh mesh = test::ball(16, {place, -place, place});
     const auto drc = difmesh::write_drc(folder / "m.drc", mesh, {.draco = draco});
-    CHECK(largest_difference(difmesh::read_mesh(folder / "m.drc"), mesh) <= drc.position_error);
+    CHECK(largest_difference(difmesh::read_mesh(folder / "m.drc").positions, mesh.positions) <=
+          drc.position_error);
     const auto glb = difmesh::write_gltf(folder / "m.glb", mesh,
                                          {.draco = draco, .local_origin = Vec3{0, 0, 0}});
-    CHECK(largest_difference(difmesh::read_mesh(folder / "m.glb"), mesh) <= glb.position_error);
+    CHECK(largest_difference(difmesh::read_mesh(folder / "m.glb").positions, mesh.positions) <=
+          glb.position_error);
   }
 }
 

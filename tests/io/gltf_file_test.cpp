@@ -10,6 +10,7 @@
 #include "difmesh/measure.hpp"
 #include "gltf_write.hpp"
 #include "io/surfaces.hpp"
+#include "support/differences.hpp"
 
 namespace {
 
@@ -19,6 +20,7 @@ using difmesh::ScalarMesh;
 using difmesh::Triangle;
 using difmesh::Vec3;
 using difmesh::VertexScalars;
+using difmesh::test::largest_difference;
 using test::Glb;
 using test::Json;
 using test::TempFolder;
@@ -47,17 +49,6 @@ void check_float_rounded(const Mesh& back, const Mesh& mesh, const Vec3& origin)
       REQUIRE(back.positions[v][axis] == wanted);
     }
   }
-}
-
-double largest_difference(const difmesh::Array<Vec3>& a, const difmesh::Array<Vec3>& b) {
-  REQUIRE(a.size() == b.size());
-  double largest = 0.0;
-  for (std::size_t v = 0; v < a.size(); ++v) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      largest = std::max(largest, std::abs(a[v][axis] - b[v][axis]));
-    }
-  }
-  return largest;
 }
 
 }  // namespace
