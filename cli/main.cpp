@@ -10,6 +10,7 @@
 
 #include "command.hpp"
 #include "difmesh/error.hpp"
+#include "difmesh/printable.hpp"
 #include "difmesh/version.hpp"
 #include "help_text.hpp"
 #include "interrupt.hpp"
@@ -42,7 +43,7 @@ constexpr const char* kFooter =
     "Errors are one line on standard error. Output files appear whole or not at all.\n";
 
 int fail(const std::string& message, int exit_code) {
-  std::cerr << "difmesh: " << cli::one_line(message) << '\n';
+  std::cerr << "difmesh: " << printable(message) << '\n';
   return exit_code;
 }
 

@@ -1,9 +1,10 @@
 #include "text.hpp"
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <iostream>
+
+#include "difmesh/printable.hpp"
 
 namespace difmesh::cli {
 namespace {
@@ -50,14 +51,8 @@ std::string count_of(std::int64_t count, std::string_view thing) {
   return std::to_string(count) + " " + std::string(thing) + (count == 1 ? "" : "s");
 }
 
-std::string one_line(std::string text) {
-  const auto is_control = [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; };
-  std::replace_if(text.begin(), text.end(), is_control, ' ');
-  return text;
-}
-
 void warn(const std::string& message) {
-  std::cerr << "difmesh: warning: " << one_line(message) << '\n';
+  std::cerr << "difmesh: warning: " << printable(message) << '\n';
 }
 
 void print_fact(std::ostream& out, std::string_view name, std::string_view value) {

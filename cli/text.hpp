@@ -23,8 +23,6 @@ namespace difmesh::cli {
 [[nodiscard]] std::string dims_text(const Index3& dims);
 /// "1 cell", "2 cells"
 [[nodiscard]] std::string count_of(std::int64_t count, std::string_view thing);
-/// Control characters as blanks.
-[[nodiscard]] std::string one_line(std::string text);
 
 /// Prints a line on standard error.
 void warn(const std::string& message);

@@ -4,6 +4,7 @@
 #include <new>
 
 #include "difmesh/error.hpp"
+#include "difmesh/printable.hpp"
 
 namespace difmesh::capi {
 namespace {
@@ -18,7 +19,7 @@ Message& message() noexcept {
   return text;
 }
 
-dif_status note(dif_status status, const char* what) noexcept {
+void note_text(const char* what) noexcept {
   Message& text = message();
   std::size_t length = std::min(std::strlen(what), text.size() - 1);
   // Not in the middle of a character.
@@ -28,6 +29,15 @@ dif_status note(dif_status status, const char* what) noexcept {
   }
   std::memcpy(text.data(), what, length);
   text[length] = '\0';
+}
+
+/// Notes a message, printable in one line; as it is where memory has run out.
+dif_status note(dif_status status, const char* what) noexcept {
+  try {
+    note_text(printable(what).c_str());
+  } catch (const std::bad_alloc&) {
+    note_text(what);
+  }
   return status;
 }
 

@@ -15,6 +15,7 @@
 #include "difmesh/normals.hpp"
 #include "difmesh/options.hpp"
 #include "difmesh/plane.hpp"
+#include "difmesh/printable.hpp"
 #include "difmesh/reconstruct.hpp"
 #include "difmesh/shapes.hpp"
 #include "difmesh/smoothing.hpp"
