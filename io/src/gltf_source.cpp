@@ -174,7 +174,7 @@ GltfSource::GltfSource(std::filesystem::path path, Array<char> bytes, bool with_
   if (bytes_.size() >= 4 && u32_at(bytes_, 0) == 0x46546C67) {
     parse_container();
   } else {
-    text_ = {bytes_.data(), bytes_.size()};
+    text_ = plain_text(path_, {bytes_.data(), bytes_.size()});
   }
   parse();
 }

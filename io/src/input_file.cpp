@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -14,21 +15,50 @@
 #include "text.hpp"
 
 namespace difmesh::detail {
+namespace {
 
-InputFile::InputFile(std::filesystem::path path) : path_(std::move(path)) {
+int open_for_reading(const std::filesystem::path& path) {
   // O_NONBLOCK: opening a pipe without a writer would wait for ever.
-  descriptor_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (descriptor_ < 0) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0) {
     throw Error(ErrorCode::file_missing,
-                "cannot open " + quoted(path_) + ": " + std::generic_category().message(errno));
+                "cannot open " + quoted(path) + ": " + std::generic_category().message(errno));
   }
+  return descriptor;
+}
+
+/// What Git LFS and git-annex leave in the place of a large file; neither writes more than this.
+constexpr std::int64_t kLargestPointer = 1024;
+
+/// Of the program that left a pointer with this text, or nullptr.
+const char* pointer_program(std::string_view text) {
+  if (text.starts_with("version https://git-lfs.github.com/spec/") ||
+      text.starts_with("version https://hawser.github.com/spec/")) {
+    return "Git LFS";
+  }
+  return text.starts_with("/annex/objects/") ? "git-annex" : nullptr;
+}
+
+}  // namespace
+
+InputFile::InputFile(const std::filesystem::path& path) : InputFile(path, open_for_reading(path)) {
   struct stat status {};
   if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) {
-    ::close(descriptor_);
     fail_format(path_, "not a regular file");
   }
   size_ = status.st_size;
+  // Whatever the format: that it is none of it would say less.
+  if (size_ <= kLargestPointer) {
+    const Array<char> text = read_text(0, size_);
+    if (const char* const program = pointer_program({text.data(), text.size()})) {
+      fail_format(path_, std::string("a pointer of ") + program +
+                             " to a file that is kept elsewhere, not the file itself");
+    }
+  }
 }
+
+InputFile::InputFile(std::filesystem::path path, int descriptor)
+    : path_(std::move(path)), descriptor_(descriptor) {}
 
 InputFile::~InputFile() {
   ::close(descriptor_);

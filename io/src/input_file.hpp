@@ -12,8 +12,9 @@ namespace difmesh::detail {
 
 class InputFile {
  public:
-  /// \throw Error file_missing with the system's reason; file_format if it is no regular file.
-  explicit InputFile(std::filesystem::path path);
+  /// \throw Error file_missing with the system's reason; file_format if it is no regular file, or
+  ///   a pointer that Git LFS or git-annex left in the place of one.
+  explicit InputFile(const std::filesystem::path& path);
   ~InputFile();
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
@@ -26,8 +27,10 @@ class InputFile {
   [[nodiscard]] Array<char> read_text(std::int64_t offset, std::int64_t bytes) const;
 
  private:
+  InputFile(std::filesystem::path path, int descriptor);
+
   std::filesystem::path path_;
-  int descriptor_ = -1;
+  int descriptor_;
   std::int64_t size_ = 0;
 };
 

@@ -29,7 +29,7 @@ bool one_of(std::string_view word, const std::array<std::string_view, N>& words)
 class HeaderParser {
  public:
   HeaderParser(const std::filesystem::path& path, std::string_view text)
-      : path_(path), text_(text) {}
+      : path_(path), text_(text), at_(text.size() - plain_text(path, text).size()) {}
 
   NrrdHeader parse() {
     magic();

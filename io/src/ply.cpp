@@ -385,7 +385,7 @@ void write_header(AtomicFile& file, const Mesh& mesh, const PlyContent& content)
 
 ScalarMesh read_ply(const InputFile& file) {
   const Array<char> bytes = file.read_text(0, file.size());
-  const std::string_view text(bytes.data(), bytes.size());
+  const std::string_view text = plain_text(file.path(), {bytes.data(), bytes.size()});
   const PlyHeader header = parse_ply_header(file.path(), text);
   if (header.encoding == PlyEncoding::text) {
     return PlyReader<TextValues>(file.path(), header, text).read();

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-
-#include "text.hpp"
 
 namespace difmesh::detail {
 namespace {
@@ -16,27 +13,9 @@ bool is_space(char c) {
 }  // namespace
 
 bool Scanner::next_line() {
-  while (!text_.empty()) {
-    line_number_ = next_number_;
-    std::size_t end = 0;
-    for (;;) {
-      end = std::min(text_.find('\n', end), text_.size());
-      if (end == text_.size()) {
-        break;
-      }
-      ++next_number_;
-      const std::size_t last = end > 0 && text_[end - 1] == '\r' ? end - 1 : end;
-      if (!style_.continued || last == 0 || text_[last - 1] != '\\') {
-        break;
-      }
-      ++end;
-    }
-    line_ = text_.substr(0, end);
-    text_.remove_prefix(std::min(end + 1, text_.size()));
-    if (style_.comment != '\0') {
-      line_ = line_.substr(0, line_.find(style_.comment));
-    }
-    if (!std::all_of(line_.begin(), line_.end(), is_space)) {
+  while (const std::optional<std::string_view> line = whole_line()) {
+    if (!std::all_of(line->begin(), line->end(), is_space)) {
+      line_ = *line;
       return true;
     }
   }
@@ -44,8 +23,28 @@ bool Scanner::next_line() {
   return false;
 }
 
+std::optional<std::string_view> Scanner::whole_line() {
+  const std::size_t start = lines_.offset();
+  for (bool is_first = true;; is_first = false) {
+    const std::size_t from = lines_.offset();
+    const std::optional<std::string_view> line = lines_.next();
+    if (!line) {
+      return is_first ? line : text_.substr(start);
+    }
+    if (is_first) {
+      line_number_ = style_.lines_before + lines_.number();
+    }
+    const std::size_t length =
+        style_.comment == '\0' ? line->size() : std::min(line->find(style_.comment), line->size());
+    const bool is_continued = style_.continued && length == line->size() && line->ends_with('\\');
+    if (!is_continued) {
+      return text_.substr(start, from + length - start);
+    }
+  }
+}
+
 std::string_view Scanner::word() {
-  // Within a line a backslash or a line feed can only be the seam of a continued one.
+  // Within a line a backslash and what ends lines can only be the seam of a continued one.
   const auto separates = [this](char c) {
     return is_space(c) || (style_.continued && (c == '\\' || c == '\n'));
   };
@@ -86,7 +85,7 @@ void Scanner::fail(const std::string& matter) const {
 
 void Scanner::fail_word(std::string_view word, const char* what) const {
   fail(word.empty() ? std::string(what) + " is missing"
-                    : std::string(what) + " is '" + std::string(word.substr(0, 40)) + "'");
+                    : std::string(what) + " is " + in_quotes(word));
 }
 
 }  // namespace difmesh::detail

@@ -5,12 +5,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "text.hpp"
+
 namespace difmesh::detail {
 
-/// Goes over the lines that hold a word. Errors name the file and the line.
+/// Goes over the lines that hold a word. Errors name the file and the line. A backslash that ends a
+/// comment continues nothing: comments hold paths such as C:\models\.
 class Scanner {
  public:
   struct Style {
@@ -19,7 +23,7 @@ class Scanner {
     std::int64_t lines_before = 0;  ///< that were read by other means
   };
   Scanner(const std::filesystem::path& path, std::string_view text, const Style& style)
-      : path_(path), text_(text), style_(style), next_number_(style.lines_before + 1) {}
+      : path_(path), text_(text), lines_(text), style_(style) {}
 
   /// To the next line with a word; false at the end of the text.
   bool next_line();
@@ -35,14 +39,16 @@ class Scanner {
   [[noreturn]] void fail(const std::string& matter) const;
 
  private:
+  /// The next line of the text without its comment, joined to the next ones where it is continued.
+  std::optional<std::string_view> whole_line();
   [[noreturn]] void fail_word(std::string_view word, const char* what) const;
 
   const std::filesystem::path& path_;
-  std::string_view text_;  ///< after the current line
-  std::string_view line_;  ///< what is left of it
+  std::string_view text_;
+  Lines lines_;
+  std::string_view line_ = {};  ///< what is left of it
   Style style_;
   std::int64_t line_number_ = 0;
-  std::int64_t next_number_;
 };
 
 }  // namespace difmesh::detail

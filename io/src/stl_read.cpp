@@ -150,9 +150,10 @@ Mesh read_stl(const InputFile& file) {
   if (text.size() >= kHeader && text.size() == kHeader + kRecord * count) {
     return read_binary(file.path(), text);
   }
-  const std::string_view start = trimmed(text.substr(0, 80));
+  const std::string_view plain = text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
+  const std::string_view start = trimmed(plain.substr(0, 80));
   if (lower_case(start.substr(0, 5)) == "solid") {
-    return read_text(file.path(), text);
+    return read_text(file.path(), plain);
   }
   if (text.size() < kHeader) {
     fail_format(file.path(), "no STL file: " + std::to_string(text.size()) +

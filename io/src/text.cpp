@@ -7,11 +7,26 @@
 #include <system_error>
 
 #include "difmesh/error.hpp"
+#include "difmesh/printable.hpp"
 
 namespace difmesh::detail {
 namespace {
 
 constexpr std::string_view kSpace = " \t\r\n\v\f";
+
+constexpr std::size_t kLongestQuote = 80;
+
+/// The beginning of a text, not cut within a character of UTF-8.
+std::string_view beginning(std::string_view text, std::size_t most) {
+  const auto is_inside = [text](std::size_t at) {
+    return (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U;
+  };
+  std::size_t length = most;
+  while (length > 0 && most - length < 3 && is_inside(length)) {
+    --length;
+  }
+  return text.substr(0, length);
+}
 
 /// std::from_chars takes no plus sign.
 std::string_view without_plus(std::string_view word) {
@@ -24,17 +39,20 @@ std::string_view without_plus(std::string_view word) {
 std::string in_quotes(std::string_view word) {
   // Not "'" + std::string(word): g++ 12 warns of an overlap there that cannot be (-Wrestrict).
   std::string text = "'";
-  text += word;
-  text += '\'';
+  text += printable(word.size() > kLongestQuote ? beginning(word, kLongestQuote) : word);
+  text += word.size() > kLongestQuote ? "...'" : "'";
   return text;
 }
 
 std::string quoted(const std::filesystem::path& path) {
-  return in_quotes(path.string());
+  std::string text = "'";
+  text += printable(path.native());
+  text += '\'';
+  return text;
 }
 
 void fail_format(const std::filesystem::path& path, const std::string& matter) {
-  throw Error(ErrorCode::file_format, quoted(path) + ": " + matter);
+  throw Error(ErrorCode::file_format, quoted(path) + ": " + printable(matter));
 }
 
 std::string lower_case(std::string_view text) {
@@ -61,6 +79,40 @@ std::vector<std::string_view> words_of(std::string_view text) {
     at = text.find_first_not_of(kSpace, end);
   }
   return words;
+}
+
+std::string_view plain_text(const std::filesystem::path& path, std::string_view text) {
+  using namespace std::string_view_literals;
+  if (text.starts_with("\xEF\xBB\xBF")) {
+    return text.substr(3);
+  }
+  // With and without a byte order mark; of UTF-32 the first two bytes are as telling.
+  const bool has_mark = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
+  const std::size_t zeros = static_cast<std::size_t>(
+      std::count(text.begin(), text.begin() + std::min<std::ptrdiff_t>(2, std::ssize(text)), '\0'));
+  if (has_mark || (zeros > 0 && text.size() > 1)) {
+    fail_format(path, "text in UTF-16 or UTF-32, or no text; UTF-8 can be read");
+  }
+  return text;
+}
+
+std::optional<std::string_view> Lines::next() {
+  if (at_ >= text_.size()) {
+    return std::nullopt;
+  }
+  const auto look = [this](std::optional<std::size_t>& known, char c) {
+    if (!known || *known < at_) {
+      known = std::min(text_.find(c, at_), text_.size());
+    }
+    return *known;
+  };
+  const std::size_t feed = look(feed_, '\n');
+  const std::size_t carriage = look(return_, '\r');
+  const std::size_t end = std::min(feed, carriage);
+  const std::string_view line = text_.substr(at_, end - at_);
+  at_ = std::min(end + (carriage + 1 == feed ? 2 : 1), text_.size());
+  ++number_;
+  return line;
 }
 
 std::string extension_of(const std::filesystem::path& path) {
