@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "command.hpp"
 #include "difmesh/distance.hpp"
@@ -50,6 +51,7 @@ struct Comparison {
   Json reference;
   std::optional<double> volume;
   std::optional<double> reference_volume;
+  std::vector<std::string> warnings;  ///< of the files
 
   /// Relative.
   [[nodiscard]] std::optional<double> volume_difference() const {
@@ -74,8 +76,8 @@ std::optional<double> volume_of(const Mesh& mesh) {
 Comparison compare_with_shape(const Request& request, const DistanceOptions& options) {
   const Shape shape =
       request.reference.shape.make(parse_shape("--shape", request.reference.shape_name));
-  const Mesh mesh = read_triangles(request.mesh_path);
   Comparison comparison;
+  const Mesh mesh = read_triangles(request.mesh_path, comparison.warnings);
   try {
     comparison.to_reference = distance(mesh, shape, options);
   } catch (const Error& error) {
@@ -88,9 +90,9 @@ Comparison compare_with_shape(const Request& request, const DistanceOptions& opt
 }
 
 Comparison compare_with_mesh(const Request& request, const DistanceOptions& options) {
-  const Mesh mesh = read_triangles(request.mesh_path);
-  const Mesh reference = read_triangles(request.reference.path);
   Comparison comparison;
+  const Mesh mesh = read_triangles(request.mesh_path, comparison.warnings);
+  const Mesh reference = read_triangles(request.reference.path, comparison.warnings);
   try {
     comparison.both_ways = distance(mesh, reference, options);
   } catch (const Error& error) {
@@ -138,6 +140,7 @@ Json comparison_json(const Request& request, const Comparison& comparison) {
   json["volume"] = or_null(comparison.volume);
   json["reference_volume"] = or_null(comparison.reference_volume);
   json["volume_difference"] = or_null(comparison.volume_difference());
+  json["warnings"] = comparison.warnings;
   return json;
 }
 
@@ -214,6 +217,7 @@ void run(const Request& request) {
                                     ? compare_with_mesh(request, options)
                                     : compare_with_shape(request, options);
   long_call.done();
+  warn_all(comparison.warnings);
   if (as_json) {
     OutputFile(request.json_path, to_text(comparison_json(request, comparison))).commit();
   } else {

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "command.hpp"
 #include "difmesh/error.hpp"
@@ -197,10 +198,12 @@ Kind kind_of(const FieldInput& input) {
   return Kind::mesh;
 }
 
-void output(const Request& request, const char* key, Json facts) {
+void output(const Request& request, const char* key, Json facts,
+            const std::vector<std::string>& warnings) {
   Json json = json_head();
   json["path"] = request.input.path;
   json[key] = std::move(facts);
+  json["warnings"] = warnings;
   OutputFile(request.json_path, to_text(json)).commit();
 }
 
@@ -212,14 +215,15 @@ void run(const Request& request) {
   if (kind_of(request.input) == Kind::field) {
     const LoadedField field = load_field(request.input);
     const FieldFacts facts = look_at_field(field.file.view(), request.purity_tolerance);
-    as_json ? output(request, "field", field_json(field, facts))
+    as_json ? output(request, "field", field_json(field, facts), {})
             : print_field(std::cout, request, field, facts);
     return;
   }
-  const Mesh mesh = read_mesh(request.input.path);
+  const auto [mesh, scalars, warnings] = read_scalar_mesh(request.input.path);
+  warn_all(warnings);
   const Measure facts = measure(mesh);
   const std::optional<double> roughness = roughness_degrees(mesh);
-  as_json ? output(request, "mesh", mesh_json(mesh, facts, roughness))
+  as_json ? output(request, "mesh", mesh_json(mesh, facts, roughness), warnings)
           : print_mesh(std::cout, request.input.path, facts, roughness);
 }
 

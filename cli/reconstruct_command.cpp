@@ -291,15 +291,18 @@ void run(const Request& request) {
   LongCall long_call("reconstructing", request.quiet);
   const Reconstruction result = reconstruct_file(request, field, long_call);
   long_call.done();
+  std::vector<std::string> warnings;  // of the files
   std::vector<VertexScalars> scalars = scalars_for(request, result.mesh);
   if (request.reference.is_given() && !result.mesh.triangles.empty()) {
-    scalars.push_back(errors_of(result.mesh, request.reference, request.quiet));
+    scalars.push_back(errors_of(result.mesh, request.reference, request.quiet, warnings));
   }
   seconds.reconstruct = watch.lap();
 
   std::optional<OutputFile> report;
   if (!request.report_path.empty()) {
-    report.emplace(request.report_path, to_text(report_json(request, field, result, seconds)));
+    Json json = report_json(request, field, result, seconds);
+    json["warnings"] = warnings;
+    report.emplace(request.report_path, to_text(json));
   }
   const double cell = *std::min_element(field.grid.spacing.begin(), field.grid.spacing.end());
   const std::string written =
@@ -310,6 +313,7 @@ void run(const Request& request) {
   seconds.write = watch.lap();
 
   if (!request.quiet) {
+    warn_all(warnings);
     print_warnings(request, result);
   }
   if (request.with_summary()) {

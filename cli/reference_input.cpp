@@ -24,8 +24,9 @@ Array<double> distances_from_shape(const Mesh& mesh, const ReferenceInput& input
 }
 
 #ifdef DIFMESH_WITH_METRICS
-Array<double> distances_from_mesh(const Mesh& mesh, const ReferenceInput& input, bool quiet) {
-  const Mesh reference = read_triangles(input.path);
+Array<double> distances_from_mesh(const Mesh& mesh, const ReferenceInput& input, bool quiet,
+                                  std::vector<std::string>& warnings) {
+  const Mesh reference = read_triangles(input.path, warnings);
   LongCall long_call("measuring", quiet);
   DistanceOptions options;
   options.progress = long_call.progress();
@@ -38,7 +39,8 @@ Array<double> distances_from_mesh(const Mesh& mesh, const ReferenceInput& input,
   }
 }
 #else
-Array<double> distances_from_mesh(const Mesh&, const ReferenceInput&, bool) {
+Array<double> distances_from_mesh(const Mesh&, const ReferenceInput&, bool,
+                                  std::vector<std::string>&) {
   throw Error(ErrorCode::invalid_argument, "difmesh was built without distances from meshes");
 }
 #endif
@@ -70,16 +72,18 @@ void check_reference(const ReferenceInput& input) {
   }
 }
 
-Mesh read_triangles(const std::string& path) {
-  Mesh mesh = read_mesh(path);
-  if (mesh.triangles.empty()) {
+Mesh read_triangles(const std::string& path, std::vector<std::string>& warnings) {
+  ScalarMesh read = read_scalar_mesh(path);
+  warnings.insert(warnings.end(), read.warnings.begin(), read.warnings.end());
+  if (read.mesh.triangles.empty()) {
     throw Error(ErrorCode::file_format, "'" + path + "': the mesh has no triangles");
   }
-  return mesh;
+  return std::move(read.mesh);
 }
 
-VertexScalars errors_of(const Mesh& mesh, const ReferenceInput& input, bool quiet) {
-  return {kErrorName, input.shape_name.empty() ? distances_from_mesh(mesh, input, quiet)
+VertexScalars errors_of(const Mesh& mesh, const ReferenceInput& input, bool quiet,
+                        std::vector<std::string>& warnings) {
+  return {kErrorName, input.shape_name.empty() ? distances_from_mesh(mesh, input, quiet, warnings)
                                                : distances_from_shape(mesh, input)};
 }
 

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "difmesh/io/vertex_scalars.hpp"
 #include "difmesh/mesh.hpp"
@@ -26,12 +27,14 @@ void add_reference_options(CLI::App& command, ReferenceInput& input);
 ///   Error as make_shape()
 void check_reference(const ReferenceInput& input);
 
-/// A mesh with triangles. \throw Error
-[[nodiscard]] Mesh read_triangles(const std::string& path);
+/// A mesh with triangles; appends what its reader warns of. \throw Error
+[[nodiscard]] Mesh read_triangles(const std::string& path, std::vector<std::string>& warnings);
 
 /// Scalars `error`: distances of the vertices from the reference, negative inside where that is known.
+/// Appends what the reader of a reference mesh warns of.
 /// \pre input.is_given()
 /// \throw Error; for a reference mesh in a build without difmesh::metrics too
-[[nodiscard]] VertexScalars errors_of(const Mesh& mesh, const ReferenceInput& input, bool quiet);
+[[nodiscard]] VertexScalars errors_of(const Mesh& mesh, const ReferenceInput& input, bool quiet,
+                                      std::vector<std::string>& warnings);
 
 }  // namespace difmesh::cli

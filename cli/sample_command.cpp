@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "command.hpp"
 #include "difmesh/error.hpp"
@@ -75,6 +76,7 @@ struct Sample {
   std::optional<double> body_volume;
   std::int64_t unresolved_cells = 0;
   double largest_error_estimate = 0.0;
+  std::vector<std::string> warnings;  ///< of the mesh's file
 };
 
 Sample sample_shape(const Request& request, LongCall& long_call) {
@@ -119,8 +121,10 @@ std::int64_t interfacial_cells(const Array<double>& fractions) {
 }
 
 Sample sample_mesh(const Request& request, LongCall& long_call) {
-  const Mesh mesh = read_mesh(request.body);
   Sample sample;
+  ScalarMesh read = read_scalar_mesh(request.body);
+  const Mesh& mesh = read.mesh;
+  sample.warnings = std::move(read.warnings);
   sample.grid = grid_around(bounds_of(request.body, mesh), request.grid);
   FractionsFromMeshOptions options;
   options.flip = request.flip;
@@ -144,6 +148,7 @@ Sample sample_mesh(const Request& request, LongCall& long_call) {
 }
 
 void print_warnings(const Request& request, const Sample& sample) {
+  warn_all(sample.warnings);
   if (sample.unresolved_cells > 0) {
     warn("'" + request.body + "': " + count_of(sample.unresolved_cells, "cell") +
          " may miss the tolerance; the largest estimate of an error is " +

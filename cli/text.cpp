@@ -1,5 +1,6 @@
 #include "text.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <iostream>
@@ -53,6 +54,14 @@ std::string count_of(std::int64_t count, std::string_view thing) {
 
 void warn(const std::string& message) {
   std::cerr << "difmesh: warning: " << printable(message) << '\n';
+}
+
+void warn_all(const std::vector<std::string>& messages) {
+  for (auto message = messages.begin(); message != messages.end(); ++message) {
+    if (std::find(messages.begin(), message, *message) == message) {
+      warn(*message);
+    }
+  }
 }
 
 void print_fact(std::ostream& out, std::string_view name, std::string_view value) {

@@ -5,6 +5,7 @@
 #include <iosfwd>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "difmesh/grid.hpp"
 
@@ -26,6 +27,8 @@ namespace difmesh::cli {
 
 /// Prints a line on standard error.
 void warn(const std::string& message);
+/// Each of them once.
+void warn_all(const std::vector<std::string>& messages);
 
 /// Prints "name   value", the values of successive calls below each other.
 void print_fact(std::ostream& out, std::string_view name, std::string_view value);

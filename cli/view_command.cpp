@@ -121,15 +121,21 @@ std::vector<Shown> load_all(const Request& request) {
     second.path = request.second_path;
     load(request, second, false, shown);
   }
+  std::vector<std::string> warnings;
   for (Shown& one : shown) {
+    warnings.insert(warnings.end(), one.surface.warnings.begin(), one.surface.warnings.end());
     if (one.surface.mesh.triangles.empty()) {
       throw Error(ErrorCode::invalid_value, "'" + one.name + "': the surface is empty");
     }
     if (request.reference.is_given()) {
       std::erase_if(one.surface.scalars,
                     [](const VertexScalars& scalars) { return scalars.name == kErrorName; });
-      one.surface.scalars.push_back(errors_of(one.surface.mesh, request.reference, request.quiet));
+      one.surface.scalars.push_back(
+          errors_of(one.surface.mesh, request.reference, request.quiet, warnings));
     }
+  }
+  if (!request.quiet) {
+    warn_all(warnings);
   }
   return shown;
 }

@@ -172,6 +172,7 @@ class SceneReader {
       stack_.pop_back();
       visit(next);
     }
+    whole_.content.warnings = std::move(source_.warnings());
     return std::move(whole_.content);
   }
 

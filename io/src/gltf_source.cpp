@@ -11,6 +11,7 @@
 #include "gltf_bytes.hpp"
 #include "input_file.hpp"
 #include "text.hpp"
+#include "warnings.hpp"
 
 namespace difmesh::detail {
 namespace {
@@ -181,16 +182,23 @@ GltfSource::GltfSource(std::filesystem::path path, Array<char> bytes, bool with_
 
 /// A .glb: a header, a chunk of JSON, perhaps one of data, perhaps others that nobody has to know.
 void GltfSource::parse_container() {
-  const std::span<const char> bytes(bytes_);
+  std::span<const char> bytes(bytes_);
   if (bytes.size() < 20) {
     fail_format(path_, "truncated: a .glb file of " + std::to_string(bytes.size()) + " bytes");
   }
   if (u32_at(bytes, 4) != 2) {
     fail_format(path_, "glTF of version " + std::to_string(u32_at(bytes, 4)) + ", not 2");
   }
-  if (u32_at(bytes, 8) != bytes.size()) {
-    fail_format(path_, "its header says " + std::to_string(u32_at(bytes, 8)) +
-                           " bytes, the file has " + std::to_string(bytes.size()));
+  const std::uint32_t length = u32_at(bytes, 8);
+  if (length > bytes.size() || length < 20) {
+    fail_format(path_, "its header says " + std::to_string(length) + " bytes, the file has " +
+                           std::to_string(bytes.size()));
+  }
+  if (length < bytes.size()) {
+    add_warning(warnings_, path_,
+                "what follows the .glb file's own end at byte " + std::to_string(length) +
+                    " was left out, " + count_of(bytes.size() - length, "byte"));
+    bytes = bytes.first(length);
   }
   for (std::size_t at = 12, chunk = 0; at < bytes.size(); ++chunk) {
     if (bytes.size() - at < 8 || u32_at(bytes, at) > bytes.size() - at - 8) {

@@ -86,6 +86,9 @@ class GltfSource {
   [[nodiscard]] AccessorView accessor(const JsonPlace& index);
   [[nodiscard]] std::span<const char> view(const JsonPlace& index);
 
+  /// Of all that was read so far.
+  [[nodiscard]] std::vector<std::string>& warnings() { return warnings_; }
+
  private:
   void parse();
   void parse_container();
@@ -101,6 +104,7 @@ class GltfSource {
   std::optional<std::span<const char>> binary_;
   std::uint64_t bytes_read_ = 0;
   std::map<std::string, std::vector<char>, std::less<>> loaded_;
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace difmesh::detail

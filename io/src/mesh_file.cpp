@@ -96,11 +96,11 @@ ScalarMesh read_tables(const std::filesystem::path& path, MeshFormat format) {
     case MeshFormat::ply:
       return detail::read_ply(file);
     case MeshFormat::obj:
-      return {detail::read_obj(file), {}};
+      return detail::read_obj(file);
     case MeshFormat::off:
-      return {detail::read_off(file), {}};
+      return detail::read_off(file);
     default:
-      return {detail::read_stl(file), {}};
+      return detail::read_stl(file);
   }
 }
 

@@ -36,9 +36,9 @@ void write_off(AtomicFile& file, const Mesh& mesh, bool normals);
 void write_stl(AtomicFile& file, const Mesh& mesh);
 
 [[nodiscard]] ScalarMesh read_ply(const InputFile& file);
-[[nodiscard]] Mesh read_obj(const InputFile& file);
-[[nodiscard]] Mesh read_off(const InputFile& file);
-[[nodiscard]] Mesh read_stl(const InputFile& file);
+[[nodiscard]] ScalarMesh read_obj(const InputFile& file);
+[[nodiscard]] ScalarMesh read_off(const InputFile& file);
+[[nodiscard]] ScalarMesh read_stl(const InputFile& file);
 
 /// The most vertices that 32-bit indices can name.
 inline constexpr std::int64_t kMostVertices = 0xFFFFFFFF;

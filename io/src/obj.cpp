@@ -106,9 +106,9 @@ void write_line(AtomicFile& file, std::string_view keyword, const Vec3& vector) 
 
 }  // namespace
 
-Mesh read_obj(const InputFile& file) {
+ScalarMesh read_obj(const InputFile& file) {
   const Array<char> text = file.read_text(0, file.size());
-  return ObjReader(file.path(), plain_text(file.path(), {text.data(), text.size()})).read();
+  return {ObjReader(file.path(), plain_text(file.path(), {text.data(), text.size()})).read(), {}};
 }
 
 void write_obj(AtomicFile& file, const Mesh& mesh, bool normals) {

@@ -134,9 +134,9 @@ class OffReader {
 
 }  // namespace
 
-Mesh read_off(const InputFile& file) {
+ScalarMesh read_off(const InputFile& file) {
   const Array<char> text = file.read_text(0, file.size());
-  return OffReader(file.path(), plain_text(file.path(), {text.data(), text.size()})).read();
+  return {OffReader(file.path(), plain_text(file.path(), {text.data(), text.size()})).read(), {}};
 }
 
 void write_off(AtomicFile& file, const Mesh& mesh, bool normals) {

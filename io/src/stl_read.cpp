@@ -142,18 +142,18 @@ Mesh read_text(const std::filesystem::path& path, std::string_view text) {
 
 }  // namespace
 
-Mesh read_stl(const InputFile& file) {
+ScalarMesh read_stl(const InputFile& file) {
   const Array<char> bytes = file.read_text(0, file.size());
   const std::string_view text(bytes.data(), bytes.size());
   // Binary files may start with "solid" too, so their size decides.
   const std::uint64_t count = text.size() >= kHeader ? little_endian(text.data() + 80) : 0;
   if (text.size() >= kHeader && text.size() == kHeader + kRecord * count) {
-    return read_binary(file.path(), text);
+    return {read_binary(file.path(), text), {}};
   }
   const std::string_view plain = text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
   const std::string_view start = trimmed(plain.substr(0, 80));
   if (lower_case(start.substr(0, 5)) == "solid") {
-    return read_text(file.path(), plain);
+    return {read_text(file.path(), plain), {}};
   }
   if (text.size() < kHeader) {
     fail_format(file.path(), "no STL file: " + std::to_string(text.size()) +

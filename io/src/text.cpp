@@ -55,6 +55,10 @@ void fail_format(const std::filesystem::path& path, const std::string& matter) {
   throw Error(ErrorCode::file_format, quoted(path) + ": " + printable(matter));
 }
 
+std::string count_of(std::uint64_t count, std::string_view thing) {
+  return std::to_string(count) + " " + std::string(thing) + (count == 1 ? "" : "s");
+}
+
 std::string lower_case(std::string_view text) {
   std::string result(text);
   for (char& c : result) {

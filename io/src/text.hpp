@@ -20,6 +20,8 @@ namespace difmesh::detail {
 /// \throw Error file_format: 'path': matter, printable
 [[noreturn]] void fail_format(const std::filesystem::path& path, const std::string& matter);
 
+/// "1 byte", "2 bytes"
+[[nodiscard]] std::string count_of(std::uint64_t count, std::string_view thing);
 [[nodiscard]] std::string lower_case(std::string_view text);
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 [[nodiscard]] std::vector<std::string_view> words_of(std::string_view text);

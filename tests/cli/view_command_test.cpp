@@ -166,3 +166,16 @@ TEST_CASE("view says what is wrong with its arguments") {
   check_fails(run_program({"view", mesh, "-o", page}), 1, {"m.ply", "empty"});
   CHECK(folder.names() == std::vector<std::string>{"m.ply"});
 }
+
+TEST_CASE("view warns once of each file whose reader left something out") {
+  const TempFolder folder;
+  const std::string ball = (folder / "ball.glb").string();
+  difmesh::write_mesh(ball, test::ball(8));
+  (void)folder.file("ball.glb", test::read_bytes(ball) + "tail");
+  const std::string page = (folder / "p.html").string();
+  const auto outcome = run_program({"view", ball, ball, "-o", page});
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.err.starts_with("difmesh: warning: '" + ball + "': what follows"));
+  CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+  check_succeeds(run_program({"view", ball, "-o", page, "--quiet"}));
+}

@@ -67,8 +67,9 @@ MeshFileReport write_mesh(const std::filesystem::path& path, const Mesh& mesh,
 /// Thread safety: concurrent calls are safe.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path);
 
-/// The same with the scalars that come with the vertices in glTF, Draco and PLY files. In PLY these
-/// are the float properties of vertices that are no positions or normals, where all are finite.
+/// The same with warnings, of what was left out or taken otherwise than the file says, and with the
+/// scalars that come with the vertices in glTF, Draco and PLY files. In PLY these are the float
+/// properties of vertices that are no positions or normals, where all are finite.
 [[nodiscard]] ScalarMesh read_scalar_mesh(const std::filesystem::path& path);
 
 /// The format that the extension of a path, in any case of letters, stands for.

@@ -19,6 +19,9 @@ struct VertexScalars {
 struct ScalarMesh {
   Mesh mesh;
   std::vector<VertexScalars> scalars;
+  /// What a reader left out of the file or took otherwise than it says, one English sentence each
+  /// that names the file: UTF-8 of at most 1000 bytes, without control characters.
+  std::vector<std::string> warnings = {};
 };
 
 }  // namespace difmesh
