@@ -9,7 +9,7 @@ module difmesh_basics
 
   public :: dif_init, dif_message, dif_name_of_status, dif_library_version
   ! For the other modules of this library.
-  public :: finish, refuse, no_room, to_c, from_c, address_of
+  public :: finish, refuse, no_room, to_c, from_c, get_list, address_of
 
   ! Prepares a struct, with the defaults of the library where it holds options. A library of another
   ! interface may refuse; struct_size then stays 0, and calls with the struct say so.
@@ -69,6 +69,32 @@ contains
     call c_f_pointer(text, letters, [longest_text])
     do n = 1, min(len(copy), length_of(text))
       copy(n:n) = letters(n)
+    end do
+  end subroutine
+
+  ! The texts that a function of the library gives for a handle and the numbers from 0 on, padded with
+  ! blanks, or cut off.
+  subroutine get_list(handle, text_of, list, status, message)
+    type(c_ptr), intent(in) :: handle
+    procedure(dif_mesh_warning) :: text_of
+    character(*), allocatable, intent(out) :: list(:)
+    integer(c_int32_t), intent(out) :: status
+    character(*), intent(inout), optional :: message
+    type(c_ptr) :: text
+    integer(c_int64_t) :: count, n
+    integer :: code
+    count = 0
+    do
+      call finish(text_of(handle, count, text), status, message)
+      if (status /= dif_ok) return
+      if (.not. c_associated(text)) exit
+      count = count + 1
+    end do
+    allocate (list(count), stat=code)
+    if (no_room(code, status, message)) return
+    do n = 1, count
+      status = text_of(handle, n - 1, text)
+      call get_text(text, list(n))
     end do
   end subroutine
 

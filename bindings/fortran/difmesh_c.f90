@@ -434,6 +434,13 @@ module difmesh_c
       type(c_ptr), intent(inout) :: mesh
     end function
 
+    integer(c_int32_t) function dif_mesh_warning(mesh, index, text) bind(c)
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: index
+      type(c_ptr), intent(inout) :: text
+    end function
+
     integer(c_int32_t) function dif_raw_layout_init(layout, struct_size) bind(c)
       import :: c_int32_t, c_int64_t, dif_raw_layout
       type(dif_raw_layout), intent(inout) :: layout

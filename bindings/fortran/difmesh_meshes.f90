@@ -41,6 +41,7 @@ module difmesh_meshes
     procedure, public :: get_scalars
     procedure, public :: scalars_name
     ! Facts about it.
+    procedure, public :: get_warnings
     procedure, public :: get_report
     procedure, public :: measure
     procedure, public :: get_curvature
@@ -380,6 +381,16 @@ contains
     if (dif_mesh_scalars_name(mesh%handle, index - 1_c_int64_t, text) /= dif_ok) return
     if (c_associated(text)) name = from_c(text)
   end function
+
+  ! What read() left out of the file or took otherwise than it says, one sentence each of at most 1000
+  ! characters; of size 0 if there is nothing to tell.
+  subroutine get_warnings(mesh, warnings, status, message)
+    class(dif_mesh), intent(in) :: mesh
+    character(*), allocatable, intent(out) :: warnings(:)
+    integer(c_int32_t), intent(out) :: status
+    character(*), intent(inout), optional :: message
+    call get_list(mesh%handle, dif_mesh_warning, warnings, status, message)
+  end subroutine
 
   ! Facts about a reconstruction.
   subroutine get_report(mesh, report, status, message)

@@ -24,6 +24,7 @@ struct dif_mesh {
   difmesh::Mesh mesh;
   std::optional<difmesh::Report> report = {};  ///< of meshes that a reconstruction made
   std::vector<difmesh::capi::Scalars> scalars = {};
+  std::vector<std::string> warnings = {};  ///< of the file that the mesh comes from
 };
 
 struct dif_shape {

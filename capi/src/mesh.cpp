@@ -225,6 +225,18 @@ dif_status dif_mesh_scalars(const dif_mesh* mesh, const char* name, const double
   });
 }
 
+dif_status dif_mesh_warning(const dif_mesh* mesh, int64_t index, const char** text) {
+  return capi::guarded([&] {
+    const std::vector<std::string>& warnings = capi::required(mesh, "mesh").warnings;
+    capi::required(text, "text");
+    if (index < 0) {
+      capi::fail_argument("index is " + std::to_string(index) + "; it must not be negative");
+    }
+    const bool known = index < static_cast<std::int64_t>(warnings.size());
+    *text = known ? warnings[static_cast<std::size_t>(index)].c_str() : nullptr;
+  });
+}
+
 dif_status dif_mesh_copy_positions(const dif_mesh* mesh, int32_t type, int64_t stride,
                                    int64_t capacity, void* out) {
   return capi::guarded([&] {

@@ -170,7 +170,7 @@ dif_mesh_write_report to_report(const difmesh::MeshFileReport& report) {
 }
 
 dif_mesh to_mesh(difmesh::ScalarMesh read) {
-  dif_mesh mesh{.mesh = std::move(read.mesh)};
+  dif_mesh mesh{.mesh = std::move(read.mesh), .warnings = std::move(read.warnings)};
   for (VertexScalars& scalars : read.scalars) {
     mesh.scalars.push_back({std::move(scalars.name), std::move(scalars.values)});
   }

@@ -333,3 +333,33 @@ TEST_CASE("options of older and newer programs write meshes") {
     CHECK(::test::read_bytes(folder / "old.glb") == ::test::read_bytes(folder / "new.glb"));
   }
 }
+
+TEST_CASE("what a reader left out is told by the mesh") {
+  if (dif_has(DIF_PART_GLTF) == 0) {
+    return;
+  }
+  const TempFolder folder;
+  const auto mesh = c::c_reconstruct(c::c_field(c::blob({12, 11, 10})));
+  const auto path = folder / "blob.glb";
+  REQUIRE(dif_mesh_write(mesh.get(), path.c_str(), nullptr) == DIF_OK);
+  const auto warnings_of = [](const c::MeshHandle& from) {
+    std::vector<std::string> warnings;
+    const char* text = nullptr;
+    for (std::int64_t index = 0; index < 9; ++index) {
+      REQUIRE(dif_mesh_warning(from.get(), index, &text) == DIF_OK);
+      if (text == nullptr) {
+        break;
+      }
+      warnings.emplace_back(text);
+    }
+    return warnings;
+  };
+  CHECK(warnings_of(mesh).empty());
+  CHECK(warnings_of(read_mesh(path)).empty());
+  const std::string bytes = ::test::read_bytes(path);
+  (void)folder.file("blob.glb", bytes + "behind");
+  const auto found = warnings_of(read_mesh(path));
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].find(path.string()) != std::string::npos);
+  CHECK(found[0].find("6 bytes") != std::string::npos);
+}

@@ -25,6 +25,7 @@ from ._errors import (
     OutOfMemoryError,
     TooLargeError,
     UnsupportedError,
+    Warning,
 )
 from ._field import Field, FunctionReport, TriangleReport
 from ._files import read_field, write_field
@@ -61,6 +62,7 @@ __all__ = [
     "TooLargeError",
     "TriangleReport",
     "UnsupportedError",
+    "Warning",
     "WriteReport",
     "cell_planes",
     "curvature",

@@ -1,6 +1,10 @@
-"""Exceptions, one per status of difmesh.h that a caller may want to tell from others."""
+"""Exceptions, one per status of difmesh.h that a caller may want to tell from others; warnings."""
 
 from __future__ import annotations
+
+import warnings
+from ctypes import byref, c_char_p, c_void_p
+from typing import Any
 
 from ._library import library
 
@@ -67,6 +71,10 @@ class UnsupportedError(Error, NotImplementedError):
     """This build of the library lacks the part; see has()."""
 
 
+class Warning(UserWarning):
+    """What was left out of a file or taken otherwise than it says; see the module `warnings`."""
+
+
 _TYPES: dict[int, type[Error]] = {
     10: InvalidArgumentError,
     11: InvalidGridError,
@@ -86,3 +94,16 @@ def check(status: int) -> None:
     if status != 0:
         message: bytes = library.dif_last_message()
         raise _TYPES.get(status, Error)(message.decode(errors="replace"), status)
+
+
+def warn_of(handle: c_void_p, getter: Any) -> None:
+    """Issues the warnings that come with a handle; to be called by the function that the user
+    called, whose line they name."""
+    text = c_char_p()
+    index = 0
+    while True:
+        check(getter(handle, index, byref(text)))
+        if text.value is None:
+            return
+        warnings.warn(text.value.decode(errors="replace"), Warning, stacklevel=3)
+        index += 1

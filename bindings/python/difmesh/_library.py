@@ -100,6 +100,7 @@ _ARGUMENTS: dict[str, list[Any]] = {
         _MESH, c_char_p, POINTER(s.DifMeshWriteOptions), POINTER(s.DifMeshWriteReport)
     ],
     "dif_mesh_read": [c_char_p, _OUT],
+    "dif_mesh_warning": [_MESH, c_int64, POINTER(c_char_p)],
     "dif_raw_layout_init": _init(s.DifRawLayout),
     "dif_field_read": [c_char_p, POINTER(s.DifRawLayout), _OUT],
     "dif_field_file_field": [_FILE, _FIELD],

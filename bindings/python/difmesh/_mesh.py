@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._calls import Handle
-from ._errors import check
+from ._errors import check, warn_of
 from ._library import library
 from ._memory import Path, address_of, from_address, path_bytes
 from ._structs import DifMeasure, DifMeshWriteReport, DifReport
@@ -323,8 +323,12 @@ class Mesh:
 
 
 def read_mesh(path: Path) -> Mesh:
-    """Reads what Mesh.save() writes, told by the extension."""
+    """Reads what Mesh.save() writes, told by the extension.
+
+    What is left out of the file or taken otherwise than it says is a difmesh.Warning.
+    """
     handle = new_mesh_handle()
     check(library.dif_mesh_read(path_bytes(path), byref(handle.pointer)))
+    warn_of(handle.pointer, library.dif_mesh_warning)
     return Mesh._from_handle(handle)
 

@@ -780,6 +780,10 @@ DIF_API dif_status dif_mesh_write_reported(const dif_mesh* mesh, const char* pat
  * Errors: FILE_MISSING, FILE_FORMAT, TOO_LARGE, OUT_OF_MEMORY, UNSUPPORTED (as above; FILE_FORMAT for
  * compressed glTF). Since 0.1. */
 DIF_API dif_status dif_mesh_read(const char* path, dif_mesh** mesh);
+/* Borrowed: warning number `index`, from 0, of the reading; NULL from their count on. It tells what was
+ * left out of the file or taken otherwise than it says, in one English sentence of at most 1000 bytes
+ * of UTF-8. Other meshes have none. Errors: INVALID_ARGUMENT. Since 0.1. */
+DIF_API dif_status dif_mesh_warning(const dif_mesh* mesh, int64_t index, const char** text);
 
 /* A field read from a file, with its memory. */
 typedef struct dif_field_file dif_field_file;

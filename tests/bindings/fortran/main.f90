@@ -15,6 +15,7 @@ program bindings_fortran_test
   call test_blocks()
   call test_mesh_files()
   call test_scalars()
+  call test_warnings()
   call test_distance()
   call test_smoothing()
   if (failures > 0) error stop 'some expectations failed'

@@ -7,7 +7,7 @@ module meshes_test
   implicit none
   private
   public :: test_arrays, test_results, test_progress, test_blocks, test_mesh_files, test_distance
-  public :: test_scalars, test_smoothing
+  public :: test_scalars, test_smoothing, test_warnings
 
   integer :: calls = 0
 
@@ -255,6 +255,38 @@ contains
     call expect(status == dif_error_file_missing, 'no file')
     call expect_same(mesh, again, 'a mesh after a file that is not there')
     open (unit=11, file='meshes_test.ply')
+    close (11, status='delete')
+  end subroutine
+
+  ! Bytes behind the end that a .glb file says it has.
+  subroutine test_warnings()
+    real(8), target :: c(24, 19, 21)
+    type(dif_mesh) :: mesh, again
+    character(1000), allocatable :: warnings(:)
+    character(30), allocatable :: short(:)
+    character(1000) :: message
+    integer :: status
+    if (dif_has(dif_part_gltf) == 0) return
+    call mesh%get_warnings(warnings, status, message)
+    call expect(status == dif_error_invalid_argument, 'warnings of no mesh: '//trim(message))
+    c = ball(24, 19, 21)
+    call mesh%reconstruct(dif_view(c), status)
+    call mesh%write('meshes_test.glb', status)
+    call again%read('meshes_test.glb', status)
+    call again%get_warnings(warnings, status)
+    call expect(status == dif_ok .and. size(warnings) == 0, 'nothing to warn of')
+    open (unit=11, file='meshes_test.glb', access='stream', position='append')
+    write (11) 'tail'
+    close (11)
+    call again%read('meshes_test.glb', status)
+    call again%get_warnings(warnings, status)
+    call expect(status == dif_ok .and. size(warnings) == 1, 'one warning')
+    call expect(index(warnings(1), "'meshes_test.glb': ") == 1, 'it names the file')
+    call expect(index(warnings(1), ' was left out, 4 bytes.') + 22 == len_trim(warnings(1)), &
+      'and the bytes')
+    call again%get_warnings(short, status)
+    call expect(short(1) == warnings(1)(:30), 'a warning that is cut off')
+    open (unit=11, file='meshes_test.glb')
     close (11, status='delete')
   end subroutine
 

@@ -8,6 +8,7 @@ import os
 import pickle
 import tempfile
 import unittest
+import warnings
 
 import numpy as np
 from support import ball_distance, same_bits, smooth_ball
@@ -406,6 +407,26 @@ class Files(unittest.TestCase):
             with self.assertRaises(difmesh.UnsupportedError):
                 difmesh.read_mesh(self.path("cube.drc"))
         self.assertEqual(os.listdir(self.folder), [])
+
+    @unittest.skipUnless(difmesh.has("gltf"), "no glTF")
+    def test_warnings(self):
+        path = self.path("cube.glb")
+        size = difmesh.Mesh(*CUBE).save(path).bytes
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            difmesh.read_mesh(path)
+        with open(path, "ab") as file:
+            file.write(b"tail")
+        with self.assertWarns(difmesh.Warning) as caught:
+            mesh = difmesh.read_mesh(path)
+        self.assertEqual(len(mesh.faces), 12)
+        self.assertEqual(len(caught.warnings), 1)
+        self.assertIn(f"end at byte {size} was left out, 4 bytes.", str(caught.warning))
+        self.assertEqual(caught.filename, __file__)  # the line that called
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", difmesh.Warning)
+            with self.assertRaises(difmesh.Warning):
+                difmesh.read_mesh(path)
 
     def test_what_fails(self):
         mesh = difmesh.Mesh(*CUBE)
