@@ -222,6 +222,21 @@ TEST_CASE("plane: mirrored and permuted cells have the same bits") {
   }
 }
 
+TEST_CASE("plane: the offset is on the side of the centre where the fraction is of one half") {
+  const Vec3 spacing{1.0, 2.0, 5.0};
+  for (const Vec3& normal : normals()) {
+    CHECK(plane_offset(normal, spacing, 0.5) == 0.0);
+    double less = 0.5;
+    double more = 0.5;
+    for (int n = 0; n < 4; ++n) {
+      less = std::nextafter(less, 0.0);
+      more = std::nextafter(more, 1.0);
+      CHECK(plane_offset(normal, spacing, less) < 0.0);
+      CHECK(plane_offset(normal, spacing, more) > 0.0);
+    }
+  }
+}
+
 TEST_CASE("plane: normals and offsets scale together") {
   Random random(5);
   for (const Vec3& normal : normals()) {

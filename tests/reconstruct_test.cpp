@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -13,6 +15,7 @@
 #include "difmesh/measure.hpp"
 #include "support/dual_edges.hpp"
 #include "support/fields.hpp"
+#include "support/near_pure.hpp"
 
 using namespace difmesh;
 using difmesh::test::blob;
@@ -59,6 +62,27 @@ std::map<std::uint64_t, Vec3> by_edge(const Mesh& mesh) {
     result[mesh.edge_ids[n]] = mesh.positions[n];
   }
   return result;
+}
+
+// Whether each vertex lies strictly between the ends of its dual edge, whose nodes -1 and n lie on open domain faces.
+bool are_within_edges(const Mesh& mesh, const Grid& grid) {
+  return std::all_of(mesh.positions.begin(), mesh.positions.end(), [&](const Vec3& position) {
+    const auto n = static_cast<std::size_t>(&position - mesh.positions.data());
+    const test::DualEdge edge = test::dual_edge(mesh.edge_ids[n], grid.dims);
+    bool is_within = true;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto node = [&](std::int64_t index) {
+        const double place = static_cast<double>(index) + 0.5;
+        return grid.origin[a] +
+               std::clamp(place, 0.0, static_cast<double>(grid.dims[a])) * grid.spacing[a];
+      };
+      const std::int64_t low = edge.node[a];
+      is_within =
+          is_within && (a == edge.axis ? position[a] > node(low) && position[a] < node(low + 1)
+                                       : position[a] == node(low));
+    }
+    return is_within;
+  });
 }
 
 double distance(const Vec3& a, const Vec3& b) {
@@ -694,18 +718,81 @@ TEST_SUITE("reconstruct: normals and ids") {
     const Mesh mesh = reconstruct(field.view(), unit_grid(field.dims), options).mesh;
     CHECK(std::adjacent_find(mesh.edge_ids.begin(), mesh.edge_ids.end(),
                              [](auto a, auto b) { return a >= b; }) == mesh.edge_ids.end());
-    for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
-      const test::DualEdge edge = test::dual_edge(mesh.edge_ids[n], field.dims);
-      for (std::size_t a = 0; a < 3; ++a) {
-        const auto node = [&](std::int64_t index) {
-          return std::clamp(static_cast<double>(index) + 0.5, 0.0,
-                            static_cast<double>(field.dims[a]));
-        };
-        const double p = mesh.positions[n][a];
-        if (a == edge.axis) {
-          CHECK((p > node(edge.node[a]) && p < node(edge.node[a] + 1)));
-        } else {
-          CHECK(p == node(edge.node[a]));
+    CHECK(are_within_edges(mesh, unit_grid(field.dims)));
+  }
+
+  TEST_CASE("open: no rounding at one half carries a vertex off its edge") {
+    const double limits[] = {0.0, test::beside(0.5, -1), 0.5, test::beside(0.5, 1), 1.0};
+    int vertices = 0;
+    for (const Normals normals : {Normals::youngs, Normals::myc, Normals::height_function,
+                                  Normals::elvira, Normals::lvira}) {
+      Options options;
+      options.normals = normals;
+      options.edge_ids = true;
+      options.threads = 1;
+      for (int n = 0; n < 3 * 625; ++n) {
+        // All fields of four cells, in the planes across each axis.
+        Index3 dims{2, 2, 2};
+        dims[static_cast<std::size_t>(n % 3)] = 1;
+        OwnedField field(dims);
+        int rest = n / 3;
+        for (double& value : field.values) {
+          value = limits[rest % 5];
+          rest /= 5;
+        }
+        const Grid grid{dims, {0.1, -0.7, 1e5}, {0.3, 1e-3, 700.0}};
+        const Mesh mesh = reconstruct(field.view(), grid, options).mesh;
+        CAPTURE(n);
+        REQUIRE(are_within_edges(mesh, grid));
+        vertices += static_cast<int>(mesh.positions.size());
+      }
+    }
+    CHECK(vertices > 50000);
+  }
+
+  TEST_CASE("open: roundings of a flat interface through cell centres leave it flat") {
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+      Options options;
+      options.normals = static_cast<Normals>(seed % 5);
+      options.edge_ids = true;
+      Index3 dims{1 + static_cast<std::int64_t>(seed % 3),
+                  1 + static_cast<std::int64_t>(seed / 3 % 4), 9};
+      OwnedField field(dims);
+      const OwnedField roundings = white_noise(dims, seed);
+      for (std::size_t n = 0; n < field.values.size(); ++n) {
+        const auto k = static_cast<std::int64_t>(n) / (dims[0] * dims[1]);
+        const int ulps = static_cast<int>(3.0 * roundings.values[n]) - 1;
+        field.values[n] = k < 4 ? 1.0 : (k == 4 ? test::beside(0.5, ulps) : 0.0);
+      }
+      const Mesh mesh = reconstruct(field.view(), unit_grid(dims), options).mesh;
+      CAPTURE(seed);
+      REQUIRE(are_within_edges(mesh, unit_grid(dims)));
+      const Measure facts = measure(mesh);
+      CHECK(facts.manifold);
+      // Where neighbours round to different sides the surface steps over the centres by the clearance, no more.
+      CHECK(facts.area == doctest::Approx(static_cast<double>(dims[0] * dims[1])).epsilon(1e-9));
+      for (const Vec3& p : mesh.positions) {
+        REQUIRE(std::abs(p[2] - 4.5) <= 1.1e-12);
+      }
+    }
+  }
+
+  TEST_CASE(
+      "open: vertices keep within their edges where coordinates are as large as they may be") {
+    for (const double sign : {-1.0, 1.0}) {
+      for (const Vec3& spacing : {Vec3{1.0, 1e-6, 1e6}, Vec3{1e6, 1.0, 1e-6}}) {
+        const OwnedField field = test::near_half_noise({5, 4, 3}, 3);
+        Grid grid{field.dims, {}, spacing};
+        for (std::size_t a = 0; a < 3; ++a) {
+          grid.origin[a] = sign * (0x1p40 - 8.0) * spacing[a];
+        }
+        for (const double clearance : {1e-13, 0.25}) {
+          Options options;
+          options.clearance = clearance;
+          options.edge_ids = true;
+          const Mesh mesh = reconstruct(field.view(), grid, options).mesh;
+          REQUIRE(mesh.positions.size() > 50);
+          CHECK(are_within_edges(mesh, grid));
         }
       }
     }

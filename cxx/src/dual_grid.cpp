@@ -90,7 +90,7 @@ void DualGrid::settle_around(const Index3& cell) {
     }
     const NodeOrigin from = origin(node);
     if (from.cell == cell && is_extended(node, from)) {
-      nodes_.set(node, trace(planes_.at(cell), from.face).a >= 0.0);
+      nodes_.set(node, trace(planes_.at(cell), from.face).is_centre_inside());
     }
   }
 }

@@ -60,8 +60,12 @@ class DualGrid {
   bool extend_ = false;
 };
 
-/// The plane's trace on the domain faces that the node lies on: a plane parallel to these faces'
-/// normals that agrees with it on the faces.
+/// The plane's trace on the domain faces that the node lies on: a plane parallel to these faces' normals that agrees
+/// with it on the faces. Says on which side of the plane the node is: is_centre_inside().
+///
+/// Let one node lie on one face more than another, f = 1 or -1 along an axis. The offset of its trace is the other's
+/// less f m / 2, m of that axis. Rounding is monotone, so if the first is inside and the second outside, f m > 0, and
+/// f m < 0 if it is the other way round: where the two nodes are on different sides, m is not 0.
 [[nodiscard]] UnitPlane trace(const UnitPlane& plane, const std::array<int, 3>& face);
 
 }  // namespace difmesh::detail

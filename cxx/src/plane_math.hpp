@@ -183,15 +183,21 @@ template <class R>
   return result;
 }
 
-/// a at which cube_share(m, a) is the fraction, clamped to [0,1].
+/// A plane that misses the centre of its cell misses it by more, if only by so little.
+inline constexpr double kBesideCentre = 1e-300;
+
+/// a at which cube_share(m, a) is the fraction, clamped to [0,1]. Whatever rounding does, a has the sign of the fraction
+/// less 1/2: a plane and the fraction that it was made of agree on which side the cell's centre is.
 template <class R>
 [[gnu::always_inline]] inline R offset_of_share(const Sorted<R>& m, const R& fraction) {
   const R half = m.sum() * 0.5;
-  const Mask<R> mostly_full = fraction > constant<R>(0.5);
+  const R zero = constant<R>(0.0);
+  const R one_half = constant<R>(0.5);
+  const Mask<R> mostly_full = fraction > one_half;
   const R distance = corner_distance(m, select(mostly_full, 1.0 - fraction, fraction));
-  const R inner = select(mostly_full, half - distance, distance - half);
-  return select(fraction <= constant<R>(0.0), -half,
-                select(fraction >= constant<R>(1.0), half, inner));
+  const R size = larger(half - distance, constant<R>(kBesideCentre));
+  const R inner = select(fraction == one_half, zero, select(mostly_full, size, -size));
+  return select(fraction <= zero, -half, select(fraction >= constant<R>(1.0), half, inner));
 }
 
 }  // namespace difmesh::detail::DIFMESH_INSTRUCTIONS

@@ -30,6 +30,12 @@ struct EdgeCounts {
   }
 };
 
+/// Between two bounds whatever the value is, if it is no number too.
+[[nodiscard]] inline double within(double value, double low, double high) {
+  const double raised = value > low ? value : low;
+  return raised < high ? raised : high;
+}
+
 /// A crossed dual edge and what is known at its two nodes.
 struct DualEdge {
   Index3 lower;
@@ -59,7 +65,7 @@ class VertexPlacer {
   [[nodiscard]] const Options& options() const { return options_; }
 
   [[nodiscard]] double cleared(double share) const {
-    return std::clamp(share, options_.clearance, 1.0 - options_.clearance);
+    return within(share, options_.clearance, 1.0 - options_.clearance);
   }
 
   // The vertex's share of the way from the lower node to the upper one.
@@ -201,7 +207,8 @@ class VertexPlacer {
                            node_plane(edge.upper, upper, crossed_cells), counts);
   }
 
-  // From a cell's centre to its domain face there is one plane; it meets the edge.
+  // From a cell's centre to its domain face, or between two faces of the cell, there is one plane; it meets the edge.
+  // What it says of both nodes made the edge a crossed one, so it is not parallel to the edge: see trace().
   [[nodiscard]] double place_on_half_edge(const DualEdge& edge, const NodeOrigin& lower,
                                           const NodeOrigin& upper) const {
     const bool face_above = upper.face[edge.axis] > 0;
@@ -224,7 +231,7 @@ class VertexPlacer {
     const UnitPlane traced = trace(plane, origin.face);
     const bool serves =
         crossed_cells || grid_.field().is_interfacial(grid_.cell_fraction(node, origin));
-    if (serves && (traced.a >= 0.0) == inside) {
+    if (serves && traced.is_centre_inside() == inside) {
       return traced.has_normal() ? traced : UnitPlane::pure(inside);
     }
     return UnitPlane::pure(inside);
@@ -243,14 +250,15 @@ class VertexPlacer {
     }
   }
 
-  // Rounding must not carry a vertex onto a node.
+  // Rounding must not carry a vertex onto a node. Between two nodes there are numbers, for they are at least half a
+  // spacing apart, which validate() keeps above 2^-41 of the largest coordinate.
   [[nodiscard]] Vec3 at(const Index3& lower, std::size_t axis, double along) const {
     Vec3 position;
     for (std::size_t t = 0; t < 3; ++t) {
       position[t] = grid_.coordinate(t, lower[t]);
     }
     const auto place = static_cast<std::size_t>(lower[axis]);
-    position[axis] = std::clamp(along, after_[axis][place], before_[axis][place + 1]);
+    position[axis] = within(along, after_[axis][place], before_[axis][place + 1]);
     return position;
   }
 
