@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -9,6 +11,7 @@
 #include "difmesh/reconstruct.hpp"
 #include "support/blocks.hpp"
 #include "support/fields.hpp"
+#include "support/near_pure.hpp"
 
 using namespace difmesh;
 using difmesh::test::OwnedField;
@@ -77,6 +80,68 @@ TEST_CASE("weld: every placement and normal") {
       check_blocks(field, {6, 5, 4}, options);
     }
   }
+}
+
+TEST_CASE("weld: cells as good as pure have the same plane for every block that asks") {
+  // The cell (0, 1, 1) is one, and its only crossed edge leaves the upper block at its low side.
+  OwnedField field({1, 3, 2});
+  field.values = {1e-6, 0.5, 1e-6, 0.499999999999999, 1e-6, 0.499999999999999};
+  const Grid grid{field.dims, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}};
+  Options options;
+  options.edge_ids = true;
+  options.vertex_normals = true;
+  for (const double tolerance : {1e-6, 0.1}) {
+    options.purity_tolerance = tolerance;
+    const Mesh whole = reconstruct(field.view(), grid, options).mesh;
+    REQUIRE(whole.triangles.size() >= 8);
+    CHECK(test::same_bits(test::in_blocks(field, grid, {1, 3, 1}, options), whole));
+  }
+}
+
+TEST_CASE("weld: the whole to the last bit of fields that are nearly pure however they are cut") {
+  std::mt19937_64 random(17);
+  const auto below = [&](std::uint64_t count) {
+    return static_cast<std::int64_t>(random() % count);
+  };
+  constexpr double kTolerances[] = {0.0, 1e-6, 0.01, 0.1};
+  int with_surface = 0;
+  for (std::uint64_t n = 0; n < 1200; ++n) {
+    Options options;
+    options.edge_ids = true;
+    options.vertex_normals = true;
+    options.threads = 1;
+    options.purity_tolerance = kTolerances[below(4)];
+    options.placement = below(3) > 0 ? Placement::plic : static_cast<Placement>(below(4));
+    options.normals = static_cast<Normals>(below(5));
+    OwnedField field({0, 0, 0});
+    test::Cuts cuts;
+    Index3 dims{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      dims[a] = 1 + below(n % 4 == 0 ? 8 : 4);
+      for (std::int64_t at = 1; at < dims[a]; ++at) {
+        if (below(2) == 0) {
+          cuts[a].push_back(at);
+        }
+      }
+      const bool is_open = below(2) == 0;
+      for (std::size_t high = 0; high < 2; ++high) {
+        options.sides[2 * a + high] = is_open ? Side::open : static_cast<Side>(below(5));
+      }
+      Side& low_side = options.sides[2 * a];
+      Side& high_side = options.sides[2 * a + 1];
+      if ((low_side == Side::periodic) != (high_side == Side::periodic)) {
+        low_side = high_side = Side::periodic;
+      }
+    }
+    field = n % 3 == 0 ? test::near_half_noise(dims, n)
+                       : test::near_pure_noise(dims, options.purity_tolerance, n);
+    const Grid grid{dims, {0.1, -0.7, 3.3}, {0.3, 0.1, 0.7}};
+    const Mesh whole = reconstruct(field.view(), grid, options).mesh;
+    with_surface += whole.triangles.empty() ? 0 : 1;
+    CAPTURE(n);
+    REQUIRE(test::same_bits(test::in_cut_blocks(field, grid, cuts, options), whole));
+  }
+  CHECK(with_surface > 1000);
 }
 
 TEST_CASE("weld: missing ghosts are named") {

@@ -129,11 +129,9 @@ double DualGrid::cell_fraction(const Index3& node, const NodeOrigin& origin) con
 }
 
 UnitPlane DualGrid::cell_plane(const Index3& node, const NodeOrigin& origin) const {
-  if (origin.constant) {
-    return UnitPlane::pure(nodes_.test(node));
-  }
-  return planes_.has(origin.cell) ? planes_.at(origin.cell)
-                                  : UnitPlane::pure(nodes_.test(origin.cell));
+  return !origin.constant && planes_.has(origin.cell)
+             ? planes_.at(origin.cell)
+             : UnitPlane::pure(is_cell_inside(node, origin));
 }
 
 bool DualGrid::is_extended(const Index3& node, const NodeOrigin& origin) const {

@@ -44,8 +44,13 @@ class DualGrid {
   [[nodiscard]] double node_fraction(const Index3& node) const;
   /// Fraction of the cell that the node stands for.
   [[nodiscard]] double cell_fraction(const Index3& node, const NodeOrigin& origin) const;
-  /// Plane of the cell itself, an outermost one, or a pure one where it has none.
+  /// Plane of the cell itself, an outermost one, or a pure one where it has none. Which cells that are as good as pure
+  /// have one depends on the block: it does not see the edges that leave it at its low sides.
   [[nodiscard]] UnitPlane cell_plane(const Index3& node, const NodeOrigin& origin) const;
+  /// Whether the cell that the node stands for is inside, or what lies beyond the side.
+  [[nodiscard]] bool is_cell_inside(const Index3& node, const NodeOrigin& origin) const {
+    return nodes_.test(origin.constant ? node : origin.cell);
+  }
   /// True where the plane of the node's cell decides on which side the node is.
   [[nodiscard]] bool is_extended(const Index3& node, const NodeOrigin& origin) const;
 

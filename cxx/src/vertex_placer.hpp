@@ -91,9 +91,9 @@ class VertexPlacer {
   }
 
   [[nodiscard]] Vec3 normal(const DualEdge& edge, double share) const {
-    return normal(edge.axis, edge.upper_inside,
-                  grid_.cell_plane(edge.lower, grid_.origin(edge.lower)),
-                  grid_.cell_plane(edge.upper, grid_.origin(edge.upper)), share);
+    const EdgeOrigins ends = origins(edge);
+    return normal(edge.axis, edge.upper_inside, edge_plane(edge.lower, ends.lower, ends),
+                  edge_plane(edge.upper, ends.upper, ends), share);
   }
 
   // The same from the planes of the two cells.
@@ -149,6 +149,24 @@ class VertexPlacer {
   }
 
  private:
+  // What the two nodes of an edge stand for.
+  struct EdgeOrigins {
+    NodeOrigin lower;
+    NodeOrigin upper;
+    bool crossed_cells;  // one cell, or what lies beyond a side, is inside, the other outside
+
+    [[nodiscard]] bool is_one_cell() const {
+      return !lower.constant && !upper.constant && lower.cell == upper.cell;
+    }
+  };
+
+  [[nodiscard]] EdgeOrigins origins(const DualEdge& edge) const {
+    EdgeOrigins ends{grid_.origin(edge.lower), grid_.origin(edge.upper), false};
+    ends.crossed_cells = grid_.is_cell_inside(edge.lower, ends.lower) !=
+                         grid_.is_cell_inside(edge.upper, ends.upper);
+    return ends;
+  }
+
   // Between a cell centre and a domain face.
   [[nodiscard]] bool is_half_edge(const DualEdge& edge) const {
     const BlockField& field = grid_.field();
@@ -196,45 +214,50 @@ class VertexPlacer {
 
   // Edges that touch a side of the domain.
   [[nodiscard]] double place_at_side(const DualEdge& edge, EdgeCounts& counts) const {
-    const NodeOrigin lower = grid_.origin(edge.lower);
-    const NodeOrigin upper = grid_.origin(edge.upper);
-    if (!lower.constant && !upper.constant && lower.cell == upper.cell) {
-      return place_on_half_edge(edge, lower, upper);
+    const EdgeOrigins ends = origins(edge);
+    if (ends.is_one_cell()) {
+      return place_on_half_edge(edge, ends);
     }
-    const bool crossed_cells = !lower.constant && !upper.constant &&
-                               grid_.nodes().test(lower.cell) != grid_.nodes().test(upper.cell);
-    return place_by_window(edge, node_plane(edge.lower, lower, crossed_cells),
-                           node_plane(edge.upper, upper, crossed_cells), counts);
+    return place_by_window(edge, node_plane(edge.lower, ends.lower, ends),
+                           node_plane(edge.upper, ends.upper, ends), counts);
   }
 
   // From a cell's centre to its domain face, or between two faces of the cell, there is one plane; it meets the edge.
   // What it says of both nodes made the edge a crossed one, so it is not parallel to the edge: see trace().
-  [[nodiscard]] double place_on_half_edge(const DualEdge& edge, const NodeOrigin& lower,
-                                          const NodeOrigin& upper) const {
-    const bool face_above = upper.face[edge.axis] > 0;
-    std::array<int, 3> face = face_above ? lower.face : upper.face;
-    const UnitPlane plane = trace(grid_.planes().at(lower.cell), face);
+  [[nodiscard]] double place_on_half_edge(const DualEdge& edge, const EdgeOrigins& ends) const {
+    const bool face_above = ends.upper.face[edge.axis] > 0;
+    const UnitPlane plane =
+        trace(grid_.planes().at(ends.lower.cell), face_above ? ends.lower.face : ends.upper.face);
     const double from_centre = 2.0 * plane.a / plane.m[edge.axis];
     return face_above ? from_centre : 1.0 + from_centre;
   }
 
-  // The plane that stands for a node in a window: on open faces the trace of its cell's plane,
-  // which makes the window one of the face. Which planes serve depends on nothing but the two
-  // cells, so blocks that share the edge agree.
+  // The plane of the cell that a node of an edge stands for. Which serve depends on nothing but the two cells, so
+  // blocks that share the edge agree. Cells of crossed edges have planes, and so have the interfacial ones along open
+  // sides; others may have one for the sake of an edge that this block does not see.
+  [[nodiscard]] UnitPlane edge_plane(const Index3& node, const NodeOrigin& origin,
+                                     const EdgeOrigins& ends) const {
+    const bool serves =
+        ends.crossed_cells || grid_.field().is_interfacial(grid_.cell_fraction(node, origin));
+    return serves ? grid_.cell_plane(node, origin)
+                  : UnitPlane::pure(grid_.is_cell_inside(node, origin));
+  }
+
+  // The plane that stands for a node in a window: on open faces the trace of its cell's plane, which makes the window
+  // one of the face.
   [[nodiscard]] UnitPlane node_plane(const Index3& node, const NodeOrigin& origin,
-                                     bool crossed_cells) const {
-    const UnitPlane plane = grid_.cell_plane(node, origin);
+                                     const EdgeOrigins& ends) const {
+    const UnitPlane plane = edge_plane(node, origin, ends);
     if (!origin.on_face() || origin.constant || !plane.has_normal()) {
       return plane;
     }
     const bool inside = grid_.nodes().test(node);
     const UnitPlane traced = trace(plane, origin.face);
-    const bool serves =
-        crossed_cells || grid_.field().is_interfacial(grid_.cell_fraction(node, origin));
-    if (serves && traced.is_centre_inside() == inside) {
-      return traced.has_normal() ? traced : UnitPlane::pure(inside);
+    // The trace does not decide on the node's side where the cell is a smear: see DualGrid::is_extended().
+    if (traced.is_centre_inside() != inside || !traced.has_normal()) {
+      return UnitPlane::pure(inside);
     }
-    return UnitPlane::pure(inside);
+    return traced;
   }
 
   void add_normal(std::size_t axis, bool upper_inside, const UnitPlane& plane, double share,

@@ -3,6 +3,8 @@
 /// Reconstruction of a field in pieces.
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "difmesh/reconstruct.hpp"
@@ -50,28 +52,41 @@ inline BlockData cut_out(const OwnedField& field, const Index3& low, const Index
   return data;
 }
 
-/// The field reconstructed in eight blocks that meet at the cut, welded.
-inline Mesh in_blocks(const OwnedField& field, const Grid& grid, const Index3& cut,
-                      const Options& options) {
+/// Where blocks begin along each axis, beside 0, ascending.
+using Cuts = std::array<std::vector<std::int64_t>, 3>;
+
+/// The field reconstructed in blocks, welded.
+inline Mesh in_cut_blocks(const OwnedField& field, const Grid& grid, Cuts cuts,
+                          const Options& options) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    cuts[a].insert(cuts[a].begin(), 0);
+    cuts[a].push_back(field.dims[a]);
+  }
   std::vector<Mesh> meshes;
   // Blocks in an order that is not that of the mesh.
-  for (int b = 7; b >= 0; --b) {
-    Index3 low{};
-    Index3 high{};
-    bool exists = true;
-    for (std::size_t a = 0; a < 3; ++a) {
-      const bool upper = (b >> a & 1) != 0;
-      low[a] = upper ? cut[a] : 0;
-      high[a] = upper ? field.dims[a] : cut[a];
-      exists = exists && low[a] < high[a];
+  for (std::size_t i = cuts[0].size() - 1; i-- > 0;) {
+    for (std::size_t j = cuts[1].size() - 1; j-- > 0;) {
+      for (std::size_t k = cuts[2].size() - 1; k-- > 0;) {
+        const Index3 low{cuts[0][i], cuts[1][j], cuts[2][k]};
+        const Index3 high{cuts[0][i + 1], cuts[1][j + 1], cuts[2][k + 1]};
+        const BlockData data = cut_out(field, low, high, options);
+        meshes.push_back(reconstruct_block(data.cells.view(), data.block, grid, options).mesh);
+      }
     }
-    if (!exists) {
-      continue;
-    }
-    const BlockData data = cut_out(field, low, high, options);
-    meshes.push_back(reconstruct_block(data.cells.view(), data.block, grid, options).mesh);
   }
   return weld(meshes, grid);
+}
+
+/// The field reconstructed in eight blocks that meet at the cut, or fewer if it lies at the end of an axis.
+inline Mesh in_blocks(const OwnedField& field, const Grid& grid, const Index3& cut,
+                      const Options& options) {
+  Cuts cuts;
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (cut[a] < field.dims[a]) {
+      cuts[a].push_back(cut[a]);
+    }
+  }
+  return in_cut_blocks(field, grid, cuts, options);
 }
 
 }  // namespace difmesh::test
