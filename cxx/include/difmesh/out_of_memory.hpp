@@ -1,0 +1,22 @@
+#pragma once
+/// \file out_of_memory.hpp
+/// What readers of files throw in place of std::bad_alloc.
+
+#include <memory>
+#include <new>
+#include <string>
+
+namespace difmesh {
+
+/// `what()` names the file and its size, or how many bytes were asked for.
+class OutOfMemory : public std::bad_alloc {
+ public:
+  explicit OutOfMemory(const std::string& message)
+      : message_(std::make_shared<const std::string>(message)) {}
+  [[nodiscard]] const char* what() const noexcept override { return message_->c_str(); }
+
+ private:
+  std::shared_ptr<const std::string> message_;  ///< shared, for copies must not throw
+};
+
+}  // namespace difmesh
