@@ -10,6 +10,7 @@
 
 #include "command.hpp"
 #include "difmesh/error.hpp"
+#include "difmesh/out_of_memory.hpp"
 #include "difmesh/printable.hpp"
 #include "difmesh/version.hpp"
 #include "help_text.hpp"
@@ -99,6 +100,8 @@ int main(int argc, char** argv) {
       return fail("interrupted", kSignal + cli::interrupting_signal());
     }
     return fail(error.what(), exit_code_of(error));
+  } catch (const OutOfMemory& error) {
+    return fail(error.what(), kFailed);
   } catch (const std::bad_alloc&) {
     return fail("out of memory", kFailed);
   } catch (const std::exception& error) {

@@ -4,6 +4,7 @@
 #include <new>
 
 #include "difmesh/error.hpp"
+#include "difmesh/out_of_memory.hpp"
 #include "difmesh/printable.hpp"
 
 namespace difmesh::capi {
@@ -91,6 +92,8 @@ dif_status note_exception() noexcept {
     return note(failure.status(), failure.what());
   } catch (const Error& error) {
     return note(status_of(error.code()), error.what());
+  } catch (const OutOfMemory& failure) {
+    return note(DIF_ERROR_OUT_OF_MEMORY, failure.what());
   } catch (const std::bad_alloc&) {
     return note(DIF_ERROR_OUT_OF_MEMORY, "out of memory");
   } catch (const std::length_error&) {

@@ -11,6 +11,7 @@
 #include "difmesh/io/draco_file.hpp"
 #include "draco_codec.hpp"
 #include "input_file.hpp"
+#include "memory.hpp"
 #include "mesh_check.hpp"
 #include "packed_surface.hpp"
 #include "text.hpp"
@@ -154,9 +155,11 @@ Array<std::uint64_t> joined_digits(const std::filesystem::path& path, const Arra
 }  // namespace detail
 
 ScalarMesh read_drc(const std::filesystem::path& path) {
-  const InputFile file(path);
-  const Array<char> bytes = file.read_text(0, file.size());
-  return decode_drc(path, bytes);
+  return naming_file(path, [&] {
+    const InputFile file(path);
+    const Array<char> bytes = file.read_text(0, file.size());
+    return decode_drc(path, bytes);
+  });
 }
 
 }  // namespace difmesh

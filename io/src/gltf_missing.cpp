@@ -34,7 +34,7 @@ std::string encode_glb_base64(const Mesh&, const WriteGltfOptions&) {
   throw Error(ErrorCode::invalid_argument, kMatter);
 }
 
-ScalarMesh read_gltf(const std::filesystem::path& path) {
+ScalarMesh read_gltf(const std::filesystem::path& path, const ReadMeshOptions&) {
   throw Error(ErrorCode::file_format, detail::quoted(path) + ": " + kMatter);
 }
 

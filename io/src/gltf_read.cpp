@@ -12,6 +12,7 @@
 #include "gltf_primitive.hpp"
 #include "gltf_source.hpp"
 #include "input_file.hpp"
+#include "memory.hpp"
 
 namespace difmesh {
 namespace detail {
@@ -270,20 +271,24 @@ ScalarMesh read_scene(GltfSource& source) {
 }  // namespace
 
 ScalarMesh decode_gltf(const std::filesystem::path& path, Array<char> bytes) {
-  GltfSource source(path, std::move(bytes), false);
+  GltfSource source(path, std::move(bytes), OtherFiles::none);
   return read_scene(source);
 }
 
 }  // namespace detail
 
-ScalarMesh read_gltf(const std::filesystem::path& path) {
-  Array<char> bytes;
-  {
-    const detail::InputFile file(path);
-    bytes = file.read_text(0, file.size());
-  }
-  detail::GltfSource source(path, std::move(bytes), true);
-  return detail::read_scene(source);
+ScalarMesh read_gltf(const std::filesystem::path& path, const ReadMeshOptions& options) {
+  return detail::naming_file(path, [&] {
+    Array<char> bytes;
+    {
+      const detail::InputFile file(path);
+      bytes = file.read_text(0, file.size());
+    }
+    detail::GltfSource source(
+        path, std::move(bytes),
+        options.outside_files ? detail::OtherFiles::anywhere : detail::OtherFiles::in_folder);
+    return detail::read_scene(source);
+  });
 }
 
 }  // namespace difmesh

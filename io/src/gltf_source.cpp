@@ -10,6 +10,7 @@
 #include "difmesh/error.hpp"
 #include "gltf_bytes.hpp"
 #include "input_file.hpp"
+#include "linked_file.hpp"
 #include "text.hpp"
 #include "warnings.hpp"
 
@@ -167,11 +168,8 @@ std::uint64_t AccessorView::whole(std::size_t element, std::size_t component) co
   }
 }
 
-GltfSource::GltfSource(std::filesystem::path path, Array<char> bytes, bool with_files)
-    : path_(std::move(path)),
-      bytes_(std::move(bytes)),
-      with_files_(with_files),
-      bytes_read_(bytes_.size()) {
+GltfSource::GltfSource(std::filesystem::path path, Array<char> bytes, OtherFiles files)
+    : path_(std::move(path)), bytes_(std::move(bytes)), files_(files), bytes_read_(bytes_.size()) {
   if (bytes_.size() >= 4 && u32_at(bytes_, 0) == 0x46546C67) {
     parse_container();
   } else {
@@ -337,7 +335,7 @@ std::span<const char> GltfSource::load(const std::string& uri, const JsonPlace& 
   return loaded_.emplace(uri, std::move(*bytes)).first->second;
 }
 
-/// Files in the folder of the glTF file or below: a file from a stranger must not read others.
+/// Files in the folder of the glTF file or below, unless all are allowed; see linked_file.hpp.
 std::span<const char> GltfSource::load_file(const std::string& uri, const JsonPlace& place) {
   const std::optional<std::string> name = without_escapes(uri);
   if (!name || name->empty() || name->find(':') != std::string::npos ||
@@ -345,7 +343,8 @@ std::span<const char> GltfSource::load_file(const std::string& uri, const JsonPl
     place.fail("is " + in_quotes(uri.substr(0, 80)) + ", no file in the folder");
   }
   const std::filesystem::path relative = std::filesystem::path(*name).lexically_normal();
-  if (!with_files_ || relative.is_absolute() || *relative.begin() == "..") {
+  if (files_ == OtherFiles::none ||
+      (files_ == OtherFiles::in_folder && !why_outside(relative).empty())) {
     place.fail("is " + in_quotes(uri.substr(0, 80)) + ", outside the folder of the file");
   }
   const std::string key = "file " + relative.string();
@@ -356,7 +355,7 @@ std::span<const char> GltfSource::load_file(const std::string& uri, const JsonPl
   if (loaded_.size() >= kMostFiles) {
     place.fail("is one file too many");
   }
-  const InputFile file(path_.parent_path() / relative);
+  const InputFile file = open_linked(path_, relative, files_ == OtherFiles::anywhere);
   const Array<char> bytes = file.read_text(0, file.size());
   bytes_read_ += bytes.size();
   return loaded_.emplace(key, std::vector<char>(bytes.begin(), bytes.end())).first->second;

@@ -70,10 +70,13 @@ struct AccessorView {
   [[nodiscard]] std::uint64_t whole(std::size_t element, std::size_t component) const;
 };
 
+/// Which files a glTF file may name.
+enum class OtherFiles : std::uint8_t { none, in_folder, anywhere };
+
 class GltfSource {
  public:
-  /// \param path for messages, and for files in its folder where `with_files`
-  GltfSource(std::filesystem::path path, Array<char> bytes, bool with_files);
+  /// \param path for messages, and for what other files are relative to
+  GltfSource(std::filesystem::path path, Array<char> bytes, OtherFiles files);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] JsonPlace root() const { return {path_, json_, ""}; }
@@ -98,7 +101,7 @@ class GltfSource {
 
   std::filesystem::path path_;
   Array<char> bytes_;
-  bool with_files_;
+  OtherFiles files_;
   nlohmann::json json_;
   std::string_view text_;
   std::optional<std::span<const char>> binary_;

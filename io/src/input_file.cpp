@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "difmesh/error.hpp"
+#include "memory.hpp"
 #include "text.hpp"
 
 namespace difmesh::detail {
@@ -41,7 +42,11 @@ const char* pointer_program(std::string_view text) {
 
 }  // namespace
 
-InputFile::InputFile(const std::filesystem::path& path) : InputFile(path, open_for_reading(path)) {
+InputFile::InputFile(const std::filesystem::path& path) : InputFile(path, open_for_reading(path)) {}
+
+// By way of another constructor, so that what is thrown here has the descriptor closed.
+InputFile::InputFile(std::filesystem::path path, int descriptor)
+    : InputFile(std::move(path), descriptor, Adopted{}) {
   struct stat status {};
   if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) {
     fail_format(path_, "not a regular file");
@@ -57,7 +62,7 @@ InputFile::InputFile(const std::filesystem::path& path) : InputFile(path, open_f
   }
 }
 
-InputFile::InputFile(std::filesystem::path path, int descriptor)
+InputFile::InputFile(std::filesystem::path path, int descriptor, Adopted)
     : path_(std::move(path)), descriptor_(descriptor) {}
 
 InputFile::~InputFile() {
@@ -84,8 +89,8 @@ void InputFile::read(std::int64_t offset, void* to, std::int64_t bytes) const {
 }
 
 Array<char> InputFile::read_text(std::int64_t offset, std::int64_t bytes) const {
-  Array<char> text(
-      static_cast<std::size_t>(std::max<std::int64_t>(0, std::min(bytes, size_ - offset))));
+  Array<char> text;
+  make_room(path_, text, std::max<std::int64_t>(0, std::min(bytes, size_ - offset)));
   read(offset, text.data(), static_cast<std::int64_t>(text.size()));
   return text;
 }

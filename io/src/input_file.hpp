@@ -15,6 +15,8 @@ class InputFile {
   /// \throw Error file_missing with the system's reason; file_format if it is no regular file, or
   ///   a pointer that Git LFS or git-annex left in the place of one.
   explicit InputFile(const std::filesystem::path& path);
+  /// Takes an open descriptor over. `path` is for messages. \throw Error file_format as above
+  InputFile(std::filesystem::path path, int descriptor);
   ~InputFile();
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
@@ -27,7 +29,8 @@ class InputFile {
   [[nodiscard]] Array<char> read_text(std::int64_t offset, std::int64_t bytes) const;
 
  private:
-  InputFile(std::filesystem::path path, int descriptor);
+  struct Adopted {};
+  InputFile(std::filesystem::path path, int descriptor, Adopted);
 
   std::filesystem::path path_;
   int descriptor_;

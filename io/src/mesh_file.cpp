@@ -14,6 +14,7 @@
 #include "difmesh/io/gltf_file.hpp"
 #include "gltf_write.hpp"
 #include "input_file.hpp"
+#include "memory.hpp"
 #include "mesh_check.hpp"
 #include "mesh_formats.hpp"
 #include "packed_surface.hpp"
@@ -129,22 +130,22 @@ MeshFileReport write_mesh(const std::filesystem::path& path, const Mesh& mesh,
   }
 }
 
-Mesh read_mesh(const std::filesystem::path& path) {
-  return read_scalar_mesh(path).mesh;
+Mesh read_mesh(const std::filesystem::path& path, const ReadMeshOptions& options) {
+  return read_scalar_mesh(path, options).mesh;
 }
 
-ScalarMesh read_scalar_mesh(const std::filesystem::path& path) {
+ScalarMesh read_scalar_mesh(const std::filesystem::path& path, const ReadMeshOptions& options) {
   const std::optional<MeshFormat> format = mesh_format_of(path);
   if (!format) {
     detail::fail_format(path, "unknown extension '" + detail::extension_of(path) + "'; " + kKnown);
   }
   if (*format == MeshFormat::glb || *format == MeshFormat::gltf) {
-    return read_gltf(path);
+    return read_gltf(path, options);
   }
   if (*format == MeshFormat::drc) {
     return read_drc(path);
   }
-  return read_tables(path, *format);
+  return detail::naming_file(path, [&] { return read_tables(path, *format); });
 }
 
 std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& path) {

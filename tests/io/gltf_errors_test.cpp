@@ -184,6 +184,32 @@ TEST_CASE("gltf: files out of the folder are not opened") {
                {"there are 3 bytes"});
 }
 
+TEST_CASE("gltf: files that lead out of the folder are opened only where that is allowed") {
+  const TempFolder folder;
+  std::filesystem::create_directories(folder / "inner/sub");
+  Glb glb = good(false);
+  (void)folder.file("m.bin", glb.data);
+  (void)folder.file("inner/sub/m.bin", glb.data);
+  std::filesystem::create_symlink("../m.bin", folder / "inner/link.bin");
+  std::filesystem::create_symlink("..", folder / "inner/up");
+  std::filesystem::create_symlink("sub/m.bin", folder / "inner/within.bin");
+  const auto with_buffer = [&](const std::string& uri) {
+    glb.json["buffers"][0]["uri"] = uri;
+    return folder.file("inner/m.gltf", glb.json.dump());
+  };
+  const auto wanted = difmesh::read_mesh(with_buffer("sub/m.bin")).positions;
+  CHECK(wanted.size() >= 3);
+  CHECK(difmesh::read_mesh(with_buffer("within.bin")).positions == wanted);
+  for (const std::string& uri : {std::string("link.bin"), std::string("up/m.bin"),
+                                 std::string("../m.bin"), (folder / "m.bin").string()}) {
+    CAPTURE(uri);
+    const auto path = with_buffer(uri);
+    test::check_error([&] { (void)difmesh::read_mesh(path); }, ErrorCode::file_format,
+                      {"m.gltf", "outside"});
+    CHECK(difmesh::read_mesh(path, {.outside_files = true}).positions == wanted);
+  }
+}
+
 TEST_CASE("gltf: a small file cannot ask for much memory") {
   check_change(
       [](Json& j) {

@@ -13,6 +13,7 @@
 #include "difmesh/io/colour_map.hpp"
 #include "difmesh/io/draco_file.hpp"
 #include "difmesh/io/mesh_file_report.hpp"
+#include "difmesh/io/read_mesh_options.hpp"
 #include "difmesh/io/vertex_scalars.hpp"
 #include "difmesh/mesh.hpp"
 
@@ -87,13 +88,15 @@ MeshFileReport write_gltf(const std::filesystem::path& path, const Mesh& mesh,
 /// number whose name starts with an underscore, in small letters here. What write_gltf() wrote
 /// comes back in the coordinates and unit that it was given, and undivided.
 ///
-/// Buffers are within the file, in base64, or in files in the same folder or below.
+/// Buffers are within the file, in base64, or in files in the same folder or below; elsewhere where
+/// the options allow it.
 /// \throw Error as read_mesh(); file_format also for sparse accessors and required extensions that
 ///   change the geometry, by name. The message names the part, for instance accessors[2].count.
 /// Cost: linear. Memory: at most some 100 times the size of the file; of Draco's data, which may
 /// pack that well, up to 1000 vertices and triangles for each of their bytes. A file that asks for
 /// more is refused as not to be trusted.
 /// Thread safety: concurrent calls are safe.
-[[nodiscard]] ScalarMesh read_gltf(const std::filesystem::path& path);
+[[nodiscard]] ScalarMesh read_gltf(const std::filesystem::path& path,
+                                   const ReadMeshOptions& options = {});
 
 }  // namespace difmesh

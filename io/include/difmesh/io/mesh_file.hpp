@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "difmesh/io/mesh_file_report.hpp"
+#include "difmesh/io/read_mesh_options.hpp"
 #include "difmesh/io/vertex_scalars.hpp"
 #include "difmesh/mesh.hpp"
 
@@ -65,12 +66,14 @@ MeshFileReport write_mesh(const std::filesystem::path& path, const Mesh& mesh,
 ///
 /// Cost: linear; memory is bounded by a small multiple of the file's size.
 /// Thread safety: concurrent calls are safe.
-[[nodiscard]] Mesh read_mesh(const std::filesystem::path& path);
+[[nodiscard]] Mesh read_mesh(const std::filesystem::path& path,
+                             const ReadMeshOptions& options = {});
 
 /// The same with warnings, of what was left out or taken otherwise than the file says, and with the
 /// scalars that come with the vertices in glTF, Draco and PLY files. In PLY these are the float
 /// properties of vertices that are no positions or normals, where all are finite.
-[[nodiscard]] ScalarMesh read_scalar_mesh(const std::filesystem::path& path);
+[[nodiscard]] ScalarMesh read_scalar_mesh(const std::filesystem::path& path,
+                                          const ReadMeshOptions& options = {});
 
 /// The format that the extension of a path, in any case of letters, stands for.
 [[nodiscard]] std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& path);
