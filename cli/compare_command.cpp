@@ -77,7 +77,8 @@ Comparison compare_with_shape(const Request& request, const DistanceOptions& opt
   const Shape shape =
       request.reference.shape.make(parse_shape("--shape", request.reference.shape_name));
   Comparison comparison;
-  const Mesh mesh = read_triangles(request.mesh_path, comparison.warnings);
+  const Mesh mesh =
+      read_triangles(request.mesh_path, request.reference.allow_outside, comparison.warnings);
   try {
     comparison.to_reference = distance(mesh, shape, options);
   } catch (const Error& error) {
@@ -91,8 +92,10 @@ Comparison compare_with_shape(const Request& request, const DistanceOptions& opt
 
 Comparison compare_with_mesh(const Request& request, const DistanceOptions& options) {
   Comparison comparison;
-  const Mesh mesh = read_triangles(request.mesh_path, comparison.warnings);
-  const Mesh reference = read_triangles(request.reference.path, comparison.warnings);
+  const Mesh mesh =
+      read_triangles(request.mesh_path, request.reference.allow_outside, comparison.warnings);
+  const Mesh reference =
+      read_triangles(request.reference.path, request.reference.allow_outside, comparison.warnings);
   try {
     comparison.both_ways = distance(mesh, reference, options);
   } catch (const Error& error) {
@@ -241,6 +244,7 @@ void add_compare_command(CLI::App& program) {
       ->option_text("FILE");
   add_threads_option(command, "The distances do", request->threads);
   add_reference_options(command, request->reference);
+  command.add_flag("--allow-outside", request->reference.allow_outside, kAllowOutsideHelp);
   command.callback([request] { run(*request); });
 }
 

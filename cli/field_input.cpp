@@ -28,6 +28,46 @@ void add_geometry_options(CLI::App& command, FieldInput& input) {
       ->group("Grid");
 }
 
+void add_value_options(CLI::App& command, FieldInput& input) {
+  CLI::Option* const full =
+      command
+          .add_option_function<std::string>(
+              "--full-value",
+              [&input](const std::string& text) {
+                input.full_value = parse_number("--full-value", text);
+              },
+              "The value that stands for 1; values beyond count as 1.\n"
+              "Default: the largest value of the type for integers, 1 for floats")
+          ->option_text("V");
+  CLI::Option* const empty = command
+                                 .add_option_function<std::string>(
+                                     "--empty-value",
+                                     [&input](const std::string& text) {
+                                       input.empty_value = parse_number("--empty-value", text);
+                                     },
+                                     "The value that stands for 0, with --full-value. Default: 0")
+                                 ->option_text("V");
+  CLI::Option* const label =
+      command
+          .add_option_function<std::string>(
+              "--label",
+              [&input](const std::string& text) {
+                for (const std::string_view word : split_at_commas(text)) {
+                  input.labels.push_back(parse_integer("--label", word,
+                                                       std::numeric_limits<std::int64_t>::min(),
+                                                       std::numeric_limits<std::int64_t>::max()));
+                }
+              },
+              "Segmentations: cells with one of these values are full, all others\n"
+              "empty")
+          ->option_text("N[,M...]");
+  empty->needs(full);
+  label->excludes(full);
+  for (CLI::Option* const option : {full, empty, label}) {
+    option->group("Values");
+  }
+}
+
 void add_raw_options(CLI::App& command, FieldInput& input) {
   CLI::Option* const dims =
       command
@@ -42,10 +82,10 @@ void add_raw_options(CLI::App& command, FieldInput& input) {
                                 .add_option_function<std::string>(
                                     "--raw-type",
                                     [&input](const std::string& text) {
-                                      input.raw_type = parse_name("--raw-type", text, kScalarTypes);
+                                      input.raw_type = parse_name("--raw-type", text, kValueTypes);
                                     },
-                                    "Its elements: float32, float64, uint8 or uint16.\n"
-                                    "Integers are fractions of the largest value of the type")
+                                    "Its elements: float32, float64, int8 to int64 or uint8 to\n"
+                                    "uint64")
                                 ->option_text("TYPE");
   CLI::Option* const order = command.add_flag("--raw-big-endian", input.raw_big_endian,
                                               "Its bytes are in big-endian order");
@@ -78,23 +118,46 @@ Source source_of(const std::optional<Value>& asked, const std::optional<Value>& 
 
 void add_field_options(CLI::App& command, FieldInput& input) {
   add_geometry_options(command, input);
+  add_value_options(command, input);
   add_raw_options(command, input);
+  command.add_flag("--allow-outside", input.allow_outside, kAllowOutsideHelp)->group("Files");
 }
 
 LoadedField load_field(const FieldInput& input) {
+  ReadFieldOptions options{.origin = input.origin,
+                           .spacing = input.spacing,
+                           .labels = input.labels,
+                           .outside_files = input.allow_outside};
+  if (input.full_value) {
+    options.values = {input.empty_value.value_or(0.0), *input.full_value};
+  }
   LoadedField field;
   if (input.is_raw()) {
-    field.file = read_field(
-        input.path, {*input.raw_dims, *input.raw_type, input.raw_big_endian, input.raw_offset});
+    const RawLayout layout{*input.raw_dims, *input.raw_type, input.raw_big_endian,
+                           input.raw_offset};
+    field.file = read_field(input.path, layout, options);
   } else {
-    field.file = read_field(input.path);
+    field.file = read_field(input.path, options);
   }
   field.grid = field.file.grid();
-  field.grid.origin = input.origin.value_or(field.grid.origin);
-  field.grid.spacing = input.spacing.value_or(field.grid.spacing);
   field.origin_from = source_of(input.origin, field.file.origin);
   field.spacing_from = source_of(input.spacing, field.file.spacing);
   return field;
+}
+
+std::string small_values_warning(const FieldInput& input, const FieldFile& file) {
+  const bool as_it_is = !input.full_value && input.labels.empty();
+  if (!as_it_is || !is_integer(file.file_type) || file.file_type != value_type_of(file.type)) {
+    return "";
+  }
+  const std::optional<ValueExtremes> extremes = extremes_of(ValueView(file.view()));
+  const double largest = largest_value(file.file_type);
+  if (!extremes || extremes->highest <= 0.0 || extremes->highest >= 0.5 * largest) {
+    return "";
+  }
+  return "'" + input.path + "': the highest value is " + exact(extremes->highest) + ", and " +
+         exact(largest) + " of " + name_of(file.file_type) +
+         " counts as full; --full-value or --label tell what is inside";
 }
 
 const char* name_of(Source source) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "difmesh/grid.hpp"
 #include "difmesh/io/field_file.hpp"
@@ -18,9 +19,13 @@ struct FieldInput {
   std::optional<Vec3> origin;
   std::optional<Vec3> spacing;
   std::optional<Index3> raw_dims;  ///< set together with raw_type
-  std::optional<ScalarType> raw_type;
+  std::optional<ValueType> raw_type;
   bool raw_big_endian = false;
   std::int64_t raw_offset = 0;
+  std::optional<double> full_value;
+  std::optional<double> empty_value;  ///< goes with full_value
+  std::vector<std::int64_t> labels;   ///< exclude full_value
+  bool allow_outside = false;
 
   [[nodiscard]] bool is_raw() const { return raw_dims.has_value(); }
 };
@@ -35,11 +40,16 @@ struct LoadedField {
   Source spacing_from = Source::file;
 };
 
-/// Adds --origin, --spacing and --raw-*. `input` must outlive the parsing.
+/// Adds --origin, --spacing, what tells values, --raw-* and --allow-outside. `input` must outlive the
+/// parsing.
 void add_field_options(CLI::App& command, FieldInput& input);
 
 /// \throw Error as read_field()
 [[nodiscard]] LoadedField load_field(const FieldInput& input);
+
+/// What a user should know of integers of which none reaches half of what counts as full; empty if
+/// there is nothing to say, or the reader has said it. One pass over the field.
+[[nodiscard]] std::string small_values_warning(const FieldInput& input, const FieldFile& file);
 
 /// "command line", "file" or "assumed".
 [[nodiscard]] const char* name_of(Source source);

@@ -52,7 +52,7 @@ Json field_json(const LoadedField& field, const FieldFacts& facts) {
   const auto cell_or_null = [](const std::optional<Index3>& cell) {
     return cell ? Json(*cell) : Json();
   };
-  return {{"type", name_of(kScalarTypes, field.file.type)},
+  return {{"type", name_of(field.file.file_type)},
           {"dims", field.grid.dims},
           {"origin", field.grid.origin},
           {"origin_from", name_of(field.origin_from)},
@@ -82,7 +82,7 @@ void print_field(std::ostream& out, const Request& request, const LoadedField& f
                  const FieldFacts& facts) {
   const std::string tolerance = exact(request.purity_tolerance);
   print_fact(out, "field", request.input.path);
-  print_fact(out, "type", name_of(kScalarTypes, field.file.type));
+  print_fact(out, "type", name_of(field.file.file_type));
   print_fact(out, "cells", dims_text(field.grid.dims) + " = " + std::to_string(facts.cells));
   print_fact(out, "origin", with_source(field.grid.origin, field.origin_from));
   print_fact(out, "spacing", with_source(field.grid.spacing, field.spacing_from));
@@ -195,6 +195,10 @@ Kind kind_of(const FieldInput& input) {
     throw CLI::ValidationError(input.origin ? "--origin" : "--spacing",
                                "'" + input.path + "' is a mesh, it has no grid");
   }
+  if (input.full_value || !input.labels.empty()) {
+    throw CLI::ValidationError(input.full_value ? "--full-value" : "--label",
+                               "'" + input.path + "' is a mesh, it has no values");
+  }
   return Kind::mesh;
 }
 
@@ -215,11 +219,16 @@ void run(const Request& request) {
   if (kind_of(request.input) == Kind::field) {
     const LoadedField field = load_field(request.input);
     const FieldFacts facts = look_at_field(field.file.view(), request.purity_tolerance);
-    as_json ? output(request, "field", field_json(field, facts), {})
+    std::vector<std::string> warnings = field.file.warnings;
+    const std::string small = small_values_warning(request.input, field.file);
+    warnings.insert(warnings.end(), small.empty() ? 0 : 1, small);
+    warn_all(warnings);
+    as_json ? output(request, "field", field_json(field, facts), warnings)
             : print_field(std::cout, request, field, facts);
     return;
   }
-  const auto [mesh, scalars, warnings] = read_scalar_mesh(request.input.path);
+  const auto [mesh, scalars, warnings] =
+      read_scalar_mesh(request.input.path, {.outside_files = request.input.allow_outside});
   warn_all(warnings);
   const Measure facts = measure(mesh);
   const std::optional<double> roughness = roughness_degrees(mesh);

@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
-#include "difmesh/field_view.hpp"
 #include "difmesh/io/gltf_file.hpp"
 #include "difmesh/options.hpp"
+#include "difmesh/values.hpp"
 
 namespace difmesh::cli {
 
@@ -43,10 +43,16 @@ inline constexpr std::array<Named<Side>, 5> kSides{{{"open", Side::open},
                                                     {"empty", Side::empty},
                                                     {"full", Side::full}}};
 
-inline constexpr std::array<Named<ScalarType>, 4> kScalarTypes{{{"float32", ScalarType::float32},
-                                                                {"float64", ScalarType::float64},
-                                                                {"uint8", ScalarType::uint8},
-                                                                {"uint16", ScalarType::uint16}}};
+inline constexpr std::array<Named<ValueType>, 10> kValueTypes{{{"float32", ValueType::float32},
+                                                               {"float64", ValueType::float64},
+                                                               {"uint8", ValueType::uint8},
+                                                               {"uint16", ValueType::uint16},
+                                                               {"int8", ValueType::int8},
+                                                               {"int16", ValueType::int16},
+                                                               {"int32", ValueType::int32},
+                                                               {"uint32", ValueType::uint32},
+                                                               {"int64", ValueType::int64},
+                                                               {"uint64", ValueType::uint64}}};
 
 inline constexpr std::array<Named<ColourMap>, 2> kColourMaps{
     {{"viridis", ColourMap::viridis}, {"cool_warm", ColourMap::cool_warm}}};

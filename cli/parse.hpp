@@ -23,6 +23,10 @@ namespace difmesh::cli {
 [[nodiscard]] double parse_number(const std::string& option, std::string_view word, Range range);
 [[nodiscard]] std::int64_t parse_integer(const std::string& option, std::string_view word,
                                          std::int64_t low, std::int64_t high);
+/// What --allow-outside does, for all commands that have it.
+inline constexpr const char* kAllowOutsideHelp =
+    "Let files name data outside their own folder: .nhdr and .gltf";
+
 /// Adds --threads N to a command, whose `result` the help says does not depend on it. `threads` must live as
 /// long as the command; 0 stands for as many as the machine has.
 void add_threads_option(CLI::App& command, const std::string& result, int& threads);

@@ -118,7 +118,7 @@ Json report_json(const Request& request, const LoadedField& field, const Reconst
   const std::optional<double> difference = volume_difference(request, report);
   Json json = json_head();
   json["field"] = {{"path", request.input.path},
-                   {"type", name_of(kScalarTypes, field.file.type)},
+                   {"type", name_of(field.file.file_type)},
                    {"dims", field.grid.dims},
                    {"origin", field.grid.origin},
                    {"origin_from", name_of(field.origin_from)},
@@ -151,6 +151,19 @@ Json report_json(const Request& request, const LoadedField& field, const Reconst
                      {"triangles", report.seconds.triangles},
                      {"reconstruct", report.seconds.total}};
   return json;
+}
+
+/// Appends what there is to know of the field's file. Its values are looked at again only where they
+/// gave no surface, or perhaps one along sides alone.
+void add_warnings(const Request& request, const LoadedField& field, const Reconstruction& result,
+                  std::vector<std::string>& warnings) {
+  warnings.insert(warnings.end(), field.file.warnings.begin(), field.file.warnings.end());
+  const Sides& sides = request.options.sides;
+  const bool full_beyond = std::find(sides.begin(), sides.end(), Side::full) != sides.end();
+  if (result.mesh.triangles.empty() || full_beyond) {
+    const std::string small = small_values_warning(request.input, field.file);
+    warnings.insert(warnings.end(), small.empty() ? 0 : 1, small);
+  }
 }
 
 void print_warnings(const Request& request, const Reconstruction& result) {
@@ -297,6 +310,7 @@ void run(const Request& request) {
     scalars.push_back(errors_of(result.mesh, request.reference, request.quiet, warnings));
   }
   seconds.reconstruct = watch.lap();
+  add_warnings(request, field, result, warnings);
 
   std::optional<OutputFile> report;
   if (!request.report_path.empty()) {
@@ -440,7 +454,10 @@ void add_reconstruct_command(CLI::App& program) {
   command.add_flag("--quiet", request->quiet, "Print nothing but errors");
   add_field_options(command, request->input);
   add_reference_options(command, request->reference);
-  command.callback([request] { run(*request); });
+  command.callback([request] {
+    request->reference.allow_outside = request->input.allow_outside;
+    run(*request);
+  });
 }
 
 }  // namespace difmesh::cli

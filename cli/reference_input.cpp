@@ -26,7 +26,7 @@ Array<double> distances_from_shape(const Mesh& mesh, const ReferenceInput& input
 #ifdef DIFMESH_WITH_METRICS
 Array<double> distances_from_mesh(const Mesh& mesh, const ReferenceInput& input, bool quiet,
                                   std::vector<std::string>& warnings) {
-  const Mesh reference = read_triangles(input.path, warnings);
+  const Mesh reference = read_triangles(input.path, input.allow_outside, warnings);
   LongCall long_call("measuring", quiet);
   DistanceOptions options;
   options.progress = long_call.progress();
@@ -72,8 +72,9 @@ void check_reference(const ReferenceInput& input) {
   }
 }
 
-Mesh read_triangles(const std::string& path, std::vector<std::string>& warnings) {
-  ScalarMesh read = read_scalar_mesh(path);
+Mesh read_triangles(const std::string& path, bool allow_outside,
+                    std::vector<std::string>& warnings) {
+  ScalarMesh read = read_scalar_mesh(path, {.outside_files = allow_outside});
   warnings.insert(warnings.end(), read.warnings.begin(), read.warnings.end());
   if (read.mesh.triangles.empty()) {
     throw Error(ErrorCode::file_format, "'" + path + "': the mesh has no triangles");

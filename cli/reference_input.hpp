@@ -17,6 +17,7 @@ struct ReferenceInput {
   std::string shape_name;
   ShapeInput shape;
   std::string path;
+  bool allow_outside = false;  ///< see kAllowOutsideHelp
 
   [[nodiscard]] bool is_given() const { return !shape_name.empty() || !path.empty(); }
 };
@@ -28,7 +29,8 @@ void add_reference_options(CLI::App& command, ReferenceInput& input);
 void check_reference(const ReferenceInput& input);
 
 /// A mesh with triangles; appends what its reader warns of. \throw Error
-[[nodiscard]] Mesh read_triangles(const std::string& path, std::vector<std::string>& warnings);
+[[nodiscard]] Mesh read_triangles(const std::string& path, bool allow_outside,
+                                  std::vector<std::string>& warnings);
 
 /// Scalars `error`: distances of the vertices from the reference, negative inside where that is known.
 /// Appends what the reader of a reference mesh warns of.

@@ -60,6 +60,7 @@ struct Request {
   GridWish grid;
   ShapeInput shape;
   bool flip = false;
+  bool allow_outside = false;
   std::optional<double> cracks;  ///< as a share of a column's cross-section
   ScalarType type = ScalarType::float64;
   int threads = 0;
@@ -122,7 +123,7 @@ std::int64_t interfacial_cells(const Array<double>& fractions) {
 
 Sample sample_mesh(const Request& request, LongCall& long_call) {
   Sample sample;
-  ScalarMesh read = read_scalar_mesh(request.body);
+  ScalarMesh read = read_scalar_mesh(request.body, {.outside_files = request.allow_outside});
   const Mesh& mesh = read.mesh;
   sample.warnings = std::move(read.warnings);
   sample.grid = grid_around(bounds_of(request.body, mesh), request.grid);
@@ -275,6 +276,7 @@ void add_sample_command(CLI::App& program) {
   command.add_option("-o,--output", request->field_path, "Field to write (.nrrd, .npy)")
       ->required()
       ->option_text("FIELD");
+  command.add_flag("--allow-outside", request->allow_outside, kAllowOutsideHelp);
   command.add_flag("--flip", request->flip,
                    "Meshes: triangles are clockwise seen from outside, turn them");
   command

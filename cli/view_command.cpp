@@ -89,20 +89,20 @@ Shown reconstructed(const LoadedField& field, const std::string& path, Placement
   }
 }
 
-ScalarMesh read_surface(const std::string& path) {
+ScalarMesh read_surface(const std::string& path, bool allow_outside) {
   if (!has_extension(path, kMeshExtensions)) {
     throw Error(ErrorCode::file_format, "'" + path + "': unknown extension; meshes are " +
                                             joined(kMeshExtensions) + ", fields " +
                                             joined(kFieldExtensions));
   }
-  return read_scalar_mesh(path);
+  return read_scalar_mesh(path, {.outside_files = allow_outside});
 }
 
 /// A field alone gives two surfaces; beside another input it gives one.
 void load(const Request& request, const FieldInput& input, bool alone, std::vector<Shown>& shown) {
   const std::string name = file_name(input.path);
   if (!is_field(input)) {
-    shown.push_back({name, read_surface(input.path)});
+    shown.push_back({name, read_surface(input.path, input.allow_outside)});
     return;
   }
   const LoadedField field = load_field(input);
@@ -111,6 +111,13 @@ void load(const Request& request, const FieldInput& input, bool alone, std::vect
   }
   shown.push_back(
       reconstructed(field, input.path, Placement::plic, alone ? "plic" : name, request.quiet));
+  std::vector<std::string>& warnings = shown.back().surface.warnings;
+  warnings.insert(warnings.end(), field.file.warnings.begin(), field.file.warnings.end());
+  if (shown.back().surface.mesh.triangles.empty()) {
+    const std::string small = small_values_warning(input, field.file);
+    throw Error(ErrorCode::invalid_value,
+                small.empty() ? "'" + name + "': the surface is empty" : small);
+  }
 }
 
 std::vector<Shown> load_all(const Request& request) {
@@ -119,6 +126,7 @@ std::vector<Shown> load_all(const Request& request) {
   if (!request.second_path.empty()) {
     FieldInput second;
     second.path = request.second_path;
+    second.allow_outside = request.input.allow_outside;
     load(request, second, false, shown);
   }
   std::vector<std::string> warnings;
@@ -266,7 +274,10 @@ void add_view_command(CLI::App& program) {
   command.add_flag("--quiet", request->quiet, "Print nothing but errors");
   add_field_options(command, request->input);
   add_reference_options(command, request->reference);
-  command.callback([request] { run(*request); });
+  command.callback([request] {
+    request->reference.allow_outside = request->input.allow_outside;
+    run(*request);
+  });
 }
 
 }  // namespace difmesh::cli

@@ -17,8 +17,9 @@ module difmesh_basics
     module procedure init_options, init_report, init_function_options, init_function_report, &
       init_triangle_options, init_triangle_report, init_shape_options, init_measure, &
       init_distance_options, init_distance, init_mesh_write_options, init_mesh_write_report, &
-      init_raw_layout, init_field_write_options, init_block, init_mollify_options, &
-      init_curvature_options, init_smoothing_options
+      init_mesh_read_options, init_raw_layout, init_field_read_options, &
+      init_field_write_options, init_block, init_mollify_options, init_curvature_options, &
+      init_smoothing_options
   end interface
 
   integer, parameter :: longest_text = 1024  ! of any message
@@ -215,10 +216,22 @@ contains
     ignored = dif_mesh_write_report_init(struct, c_sizeof(struct))
   end subroutine
 
+  subroutine init_mesh_read_options(struct)
+    type(dif_mesh_read_options), intent(out) :: struct
+    integer(c_int32_t) :: ignored
+    ignored = dif_mesh_read_options_init(struct, c_sizeof(struct))
+  end subroutine
+
   subroutine init_raw_layout(struct)
     type(dif_raw_layout), intent(out) :: struct
     integer(c_int32_t) :: ignored
     ignored = dif_raw_layout_init(struct, c_sizeof(struct))
+  end subroutine
+
+  subroutine init_field_read_options(struct)
+    type(dif_field_read_options), intent(out) :: struct
+    integer(c_int32_t) :: ignored
+    ignored = dif_field_read_options_init(struct, c_sizeof(struct))
   end subroutine
 
   subroutine init_field_write_options(struct)

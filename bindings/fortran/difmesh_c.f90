@@ -1,10 +1,12 @@
 ! The functions of difmesh.h as they are, for what the module difmesh does not cover. An absent
 ! optional argument is NULL; text ends with c_null_char; see the header for all else.
 module difmesh_c
-  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int32_t, c_int64_t, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int8_t, c_int32_t, &
+    c_int64_t, c_ptr
   use difmesh_types
   implicit none
-  private :: c_char, c_double, c_funptr, c_int32_t, c_int64_t, c_ptr
+  private :: c_char, c_double, c_funptr, c_int8_t, c_int32_t, &
+    c_int64_t, c_ptr
 
   interface
     type(c_ptr) function dif_status_name(status) bind(c)
@@ -357,6 +359,29 @@ module difmesh_c
       type(dif_distance), intent(inout), optional :: back
     end function
 
+    integer(c_int32_t) function dif_fractions_from_values(values, empty, full, fractions) bind(c)
+      import :: c_double, c_int32_t, dif_field
+      type(dif_field), intent(in) :: values
+      real(c_double), value :: empty
+      real(c_double), value :: full
+      real(c_double), intent(inout) :: fractions(*)
+    end function
+
+    integer(c_int32_t) function dif_fractions_from_labels(values, count, labels, fractions) bind(c)
+      import :: c_int8_t, c_int32_t, c_int64_t, dif_field
+      type(dif_field), intent(in) :: values
+      integer(c_int64_t), value :: count
+      integer(c_int64_t), intent(in) :: labels(*)
+      integer(c_int8_t), intent(inout) :: fractions(*)
+    end function
+
+    integer(c_int32_t) function dif_value_extremes(values, lowest, highest) bind(c)
+      import :: c_double, c_int32_t, dif_field
+      type(dif_field), intent(in) :: values
+      real(c_double), intent(inout) :: lowest
+      real(c_double), intent(inout) :: highest
+    end function
+
     integer(c_int32_t) function dif_mollify_options_init(options, struct_size) bind(c)
       import :: c_int32_t, c_int64_t, dif_mollify_options
       type(dif_mollify_options), intent(inout) :: options
@@ -441,6 +466,19 @@ module difmesh_c
       type(c_ptr), intent(inout) :: text
     end function
 
+    integer(c_int32_t) function dif_mesh_read_options_init(options, struct_size) bind(c)
+      import :: c_int32_t, c_int64_t, dif_mesh_read_options
+      type(dif_mesh_read_options), intent(inout) :: options
+      integer(c_int64_t), value :: struct_size
+    end function
+
+    integer(c_int32_t) function dif_mesh_read_with(path, options, mesh) bind(c)
+      import :: c_char, c_int32_t, c_ptr, dif_mesh_read_options
+      character(kind=c_char), intent(in) :: path(*)
+      type(dif_mesh_read_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: mesh
+    end function
+
     integer(c_int32_t) function dif_raw_layout_init(layout, struct_size) bind(c)
       import :: c_int32_t, c_int64_t, dif_raw_layout
       type(dif_raw_layout), intent(inout) :: layout
@@ -452,6 +490,33 @@ module difmesh_c
       character(kind=c_char), intent(in) :: path(*)
       type(dif_raw_layout), intent(in), optional :: layout
       type(c_ptr), intent(inout) :: file
+    end function
+
+    integer(c_int32_t) function dif_field_read_options_init(options, struct_size) bind(c)
+      import :: c_int32_t, c_int64_t, dif_field_read_options
+      type(dif_field_read_options), intent(inout) :: options
+      integer(c_int64_t), value :: struct_size
+    end function
+
+    integer(c_int32_t) function dif_field_read_with(path, layout, options, file) bind(c)
+      import :: c_char, c_int32_t, c_ptr, dif_field_read_options, dif_raw_layout
+      character(kind=c_char), intent(in) :: path(*)
+      type(dif_raw_layout), intent(in), optional :: layout
+      type(dif_field_read_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: file
+    end function
+
+    integer(c_int32_t) function dif_field_file_warning(file, index, text) bind(c)
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: file
+      integer(c_int64_t), value :: index
+      type(c_ptr), intent(inout) :: text
+    end function
+
+    integer(c_int32_t) function dif_field_file_type(file, type) bind(c)
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: file
+      integer(c_int32_t), intent(inout) :: type
     end function
 
     subroutine dif_field_file_free(file) bind(c)

@@ -9,6 +9,7 @@ module difmesh_fields
   private
 
   public :: dif_view, dif_make_grid, dif_planes, dif_mollified, dif_write_field
+  public :: dif_fractions_of_values, dif_fractions_of_labels
 
   ! field = dif_view(c, spacing, origin, ghosts): what the library is told of a solver's array
   ! c(i, j, k) of real(8), real(4), or 1- or 2-byte integers, whose bits count as unsigned, 0 to 255
@@ -21,8 +22,10 @@ module difmesh_fields
   !   field%strides = storage_size(cells)/storage_size(cells%c)*[1, nx, nx*ny]
   ! spacing: edges of a cell, 1 by default; origin: low corner of the first cell inside, 0.
   ! An array without cells gives a view that the library refuses.
+  ! Integers of 4 and 8 bytes are values, such as labels, of which dif_fractions_of_values and
+  ! dif_fractions_of_labels make fractions.
   interface dif_view
-    module procedure view_real64, view_real32, view_uint8, view_uint16
+    module procedure view_real64, view_real32, view_uint8, view_uint16, view_int32, view_int64
   end interface
 
   ! The solver's arrays, or sections without ghost layers, that dif_planes is to fill; all with the
@@ -43,6 +46,7 @@ module difmesh_fields
     procedure, public :: read => read_file
     procedure, public :: view => view_file
     procedure, public :: get_fractions
+    procedure, public :: get_warnings
     procedure, private :: leave
     generic, public :: assignment(=) => leave
     final :: free
@@ -110,6 +114,36 @@ contains
       [c_loc(c(n(1), i, i)), c_loc(c(i, n(2), i)), c_loc(c(i, i, n(3)))])
   end function
 
+  function view_int32(c, spacing, origin, ghosts) result(field)
+    integer(c_int32_t), intent(in), target :: c(:, :, :)
+    real(c_double), intent(in), optional :: spacing(3), origin(3)
+    integer, intent(in), optional :: ghosts
+    type(dif_field) :: field
+    integer :: i, n(3)
+    call describe(field, dif_int32, shape(c, c_int64_t), ghosts)
+    call set_place(field, spacing, origin)
+    if (any(field%dims < 1)) return
+    i = first_inside(ghosts)
+    n = merge(i + 1, i, field%dims > 1)
+    call set_data(field, c_loc(c(i, i, i)), &
+      [c_loc(c(n(1), i, i)), c_loc(c(i, n(2), i)), c_loc(c(i, i, n(3)))])
+  end function
+
+  function view_int64(c, spacing, origin, ghosts) result(field)
+    integer(c_int64_t), intent(in), target :: c(:, :, :)
+    real(c_double), intent(in), optional :: spacing(3), origin(3)
+    integer, intent(in), optional :: ghosts
+    type(dif_field) :: field
+    integer :: i, n(3)
+    call describe(field, dif_int64, shape(c, c_int64_t), ghosts)
+    call set_place(field, spacing, origin)
+    if (any(field%dims < 1)) return
+    i = first_inside(ghosts)
+    n = merge(i + 1, i, field%dims > 1)
+    call set_data(field, c_loc(c(i, i, i)), &
+      [c_loc(c(n(1), i, i)), c_loc(c(i, n(2), i)), c_loc(c(i, i, n(3)))])
+  end function
+
   subroutine describe(field, type, extent, ghosts)
     type(dif_field), intent(out) :: field
     integer(c_int32_t), intent(in) :: type
@@ -160,9 +194,9 @@ contains
   integer(c_int64_t) function bytes_of(type)
     integer(c_int32_t), intent(in) :: type
     select case (type)
-    case (dif_float64)
+    case (dif_float64, dif_int64)
       bytes_of = 8
-    case (dif_float32)
+    case (dif_float32, dif_int32)
       bytes_of = 4
     case (dif_uint16)
       bytes_of = 2
@@ -260,6 +294,40 @@ contains
     call finish(dif_mollify(field, options, values), status, message)
   end subroutine
 
+  ! (value - empty)/(full - empty) into fractions(nx, ny, nz), values beyond counting as 0 or 1; see
+  ! dif_fractions_from_values in difmesh.h. `empty` is 0 by default.
+  subroutine dif_fractions_of_values(values, full, fractions, status, empty, message)
+    type(dif_field), intent(in) :: values
+    real(c_double), intent(in) :: full
+    real(c_double), intent(inout), contiguous :: fractions(:, :, :)
+    integer(c_int32_t), intent(out) :: status
+    real(c_double), intent(in), optional :: empty
+    character(*), intent(inout), optional :: message
+    real(c_double) :: low
+    if (any(shape(fractions, c_int64_t) /= values%dims)) then
+      call refuse('fractions must have the shape of the values', status, message)
+      return
+    end if
+    low = 0
+    if (present(empty)) low = empty
+    call finish(dif_fractions_from_values(values, low, full, fractions), status, message)
+  end subroutine
+
+  ! The bits of 255, that is 1, into fractions(nx, ny, nz) where a value is one of the labels, else 0.
+  subroutine dif_fractions_of_labels(values, labels, fractions, status, message)
+    type(dif_field), intent(in) :: values
+    integer, intent(in) :: labels(:)
+    integer(c_int8_t), intent(inout), contiguous :: fractions(:, :, :)
+    integer(c_int32_t), intent(out) :: status
+    character(*), intent(inout), optional :: message
+    if (any(shape(fractions, c_int64_t) /= values%dims)) then
+      call refuse('fractions must have the shape of the values', status, message)
+      return
+    end if
+    call finish(dif_fractions_from_labels(values, size(labels, kind=c_int64_t), &
+      int(labels, c_int64_t), fractions), status, message)
+  end subroutine
+
   ! To .npy or .nrrd; only the latter holds spacing and origin.
   subroutine dif_write_field(field, path, status, options, message)
     type(dif_field), intent(in) :: field
@@ -270,18 +338,44 @@ contains
     call finish(dif_field_write(field, to_c(path), options), status, message)
   end subroutine
 
-  ! From .npy, .nrrd or .nhdr, or with a layout from a raw file.
-  subroutine read_file(file, path, status, layout, message)
+  ! From .npy, .nrrd or .nhdr, or with a layout from a raw file. `labels`: cells with one of these
+  ! values are full, others empty; in place of those in the options.
+  subroutine read_file(file, path, status, layout, message, options, labels)
     class(dif_field_file), intent(inout) :: file
     character(*), intent(in) :: path
     integer(c_int32_t), intent(out) :: status
     type(dif_raw_layout), intent(in), optional :: layout
     character(*), intent(inout), optional :: message
+    type(dif_field_read_options), intent(in), optional :: options
+    integer, intent(in), optional :: labels(:)
+    type(dif_field_read_options) :: chosen
+    integer(c_int64_t), allocatable, target :: wanted(:)
     type(c_ptr) :: made
-    call finish(dif_field_read(to_c(path), layout, made), status, message)
+    call dif_init(chosen)
+    if (present(options)) chosen = options
+    if (present(labels)) then
+      if (size(labels) == 0) then
+        call refuse('labels: there are none', status, message)
+        return
+      end if
+      wanted = labels
+      chosen%label_count = size(wanted, kind=c_int64_t)
+      chosen%labels = c_loc(wanted)
+    end if
+    call finish(dif_field_read_with(to_c(path), layout, chosen, made), status, message)
     if (status /= dif_ok) return
     call dif_field_file_free(file%handle)
     file%handle = made
+  end subroutine
+
+  ! What a user must know of the file though it is no error, one sentence each; of size 0 if there is
+  ! nothing to tell.
+  subroutine get_warnings(file, warnings, status, message)
+    class(dif_field_file), intent(in) :: file
+    character(*), allocatable, intent(out) :: warnings(:)
+    integer(c_int32_t), intent(out) :: status
+    character(*), intent(inout), optional :: message
+    call get_list(file%handle, dif_field_file_warning, warnings, status, message)
   end subroutine
 
   ! A view of the memory of the file, as long as nothing else is read into it.

@@ -132,13 +132,14 @@ contains
   end subroutine
 
   ! From .ply, .obj, .off, .stl, .glb, .gltf or .drc.
-  subroutine read_file(mesh, path, status, message)
+  subroutine read_file(mesh, path, status, message, options)
     class(dif_mesh), intent(inout) :: mesh
     character(*), intent(in) :: path
     integer(c_int32_t), intent(out) :: status
     character(*), intent(inout), optional :: message
+    type(dif_mesh_read_options), intent(in), optional :: options
     type(c_ptr) :: made
-    call finish(dif_mesh_read(to_c(path), made), status, message)
+    call finish(dif_mesh_read_with(to_c(path), options, made), status, message)
     call take(mesh, made, status)
   end subroutine
 

@@ -60,7 +60,10 @@ module difmesh_types
   integer(c_int32_t), parameter, public :: &
     dif_int32 = 11, &
     dif_uint32 = 12, &
-    dif_int64 = 13
+    dif_int64 = 13, &
+    dif_int8 = 14, &
+    dif_int16 = 15, &
+    dif_uint64 = 16
 
   integer(c_int32_t), parameter, public :: &
     dif_source_none = 0, &
@@ -380,12 +383,32 @@ module difmesh_types
     real(c_double) :: local_origin(3) = 0
   end type
 
+  type, bind(c), public :: dif_mesh_read_options
+    integer(c_int64_t) :: struct_size = 0
+    integer(c_int32_t) :: outside_files = 0
+    integer(c_int32_t) :: reserved = 0
+  end type
+
   type, bind(c), public :: dif_raw_layout
     integer(c_int64_t) :: struct_size = 0
     integer(c_int64_t) :: dims(3) = 0
     integer(c_int32_t) :: type = 0
     integer(c_int32_t) :: big_endian = 0
     integer(c_int64_t) :: offset = 0
+  end type
+
+  type, bind(c), public :: dif_field_read_options
+    integer(c_int64_t) :: struct_size = 0
+    real(c_double) :: origin(3) = 0
+    real(c_double) :: spacing(3) = 0
+    integer(c_int32_t) :: has_origin = 0
+    integer(c_int32_t) :: has_spacing = 0
+    real(c_double) :: empty_value = 0
+    real(c_double) :: full_value = 0
+    integer(c_int32_t) :: has_full_value = 0
+    integer(c_int32_t) :: outside_files = 0
+    integer(c_int64_t) :: label_count = 0
+    type(c_ptr) :: labels = c_null_ptr
   end type
 
   type, bind(c), public :: dif_field_write_options

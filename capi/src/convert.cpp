@@ -12,8 +12,11 @@ constexpr std::array kPlacements{Placement::midpoint, Placement::linear, Placeme
 constexpr std::array kNormals{Normals::youngs, Normals::myc, Normals::height_function,
                               Normals::elvira, Normals::lvira};
 constexpr std::array kSides{Side::open, Side::mirror, Side::periodic, Side::empty, Side::full};
-constexpr std::array kTypes{ScalarType::float32, ScalarType::float64, ScalarType::uint8,
-                            ScalarType::uint16};
+/// The C constants of the value types, in their order.
+constexpr std::array<std::int32_t, 10> kValueTypes{DIF_FLOAT32, DIF_FLOAT64, DIF_UINT8, DIF_UINT16,
+                                                   DIF_INT8,    DIF_INT16,   DIF_INT32, DIF_UINT32,
+                                                   DIF_INT64,   DIF_UINT64};
+constexpr std::ptrdiff_t kScalarTypes = 4;  // the first of them
 
 dif_field read_field_struct(const dif_field* field) {
   required(field, "field");
@@ -25,8 +28,8 @@ dif_field read_field_struct(const dif_field* field) {
 }
 
 /// \pre the dims are valid
-FieldView to_view(const dif_field& given) {
-  const ScalarType type = to_scalar_type(given.type);
+ValueView to_values(const dif_field& given) {
+  const ValueType type = to_value_type(given.type);
   if (given.data == nullptr) {
     fail_argument("field: data is NULL");
   }
@@ -35,9 +38,16 @@ FieldView to_view(const dif_field& given) {
     fail_argument("field: data is not aligned for elements of " + std::to_string(size_of(type)) +
                   " bytes");
   }
-  const FieldView view(given.data, type, to_index(given.dims), to_index(given.strides));
+  const ValueView view(given.data, type, to_index(given.dims), to_index(given.strides));
   check_strides(view.dims, view.strides, size_of(type), "field");
   return view;
+}
+
+/// Likewise.
+FieldView to_view(const dif_field& given) {
+  const ScalarType type = to_scalar_type(given.type);
+  const ValueView values = to_values(given);
+  return {values.data, type, values.dims, values.strides};
 }
 
 }  // namespace
@@ -57,19 +67,35 @@ void require_zero(std::int32_t reserved, const char* struct_name) {
 }
 
 ScalarType to_scalar_type(std::int32_t type) {
-  if (type == 0) {
-    fail_argument("type is 0; DIF_FLOAT32, DIF_FLOAT64, DIF_UINT8 and DIF_UINT16 are possible");
+  const auto known = std::find(kValueTypes.begin(), kValueTypes.end(), type);
+  if (known != kValueTypes.end() && known - kValueTypes.begin() >= kScalarTypes) {
+    fail_argument("type is " + std::to_string(type) + ", that of values, of which " +
+                  "dif_fractions_from_values() and dif_fractions_from_labels() make fractions");
   }
-  return to_choice(type, ScalarType::float64, kTypes, "type");
+  if (known == kValueTypes.end()) {
+    fail_argument("type is " + std::to_string(type) +
+                  "; DIF_FLOAT32, DIF_FLOAT64, DIF_UINT8 and DIF_UINT16 are possible");
+  }
+  return static_cast<ScalarType>(known - kValueTypes.begin());
 }
 
 std::int32_t from_scalar_type(ScalarType type) {
-  return static_cast<std::int32_t>(type) + 1;
+  return kValueTypes[static_cast<std::size_t>(type)];
 }
-static_assert(static_cast<int>(ScalarType::float32) + 1 == DIF_FLOAT32 &&
-              static_cast<int>(ScalarType::float64) + 1 == DIF_FLOAT64 &&
-              static_cast<int>(ScalarType::uint8) + 1 == DIF_UINT8 &&
-              static_cast<int>(ScalarType::uint16) + 1 == DIF_UINT16);
+
+ValueType to_value_type(std::int32_t type) {
+  const auto known = std::find(kValueTypes.begin(), kValueTypes.end(), type);
+  if (known == kValueTypes.end()) {
+    fail_argument("type is " + std::to_string(type) +
+                  "; DIF_FLOAT32, DIF_FLOAT64, DIF_INT8 to DIF_INT64 and DIF_UINT8 to DIF_UINT64 "
+                  "are possible");
+  }
+  return static_cast<ValueType>(known - kValueTypes.begin());
+}
+
+std::int32_t from_value_type(ValueType type) {
+  return kValueTypes[static_cast<std::size_t>(type)];
+}
 
 Progress to_progress(dif_progress progress, void* user) {
   if (progress == nullptr) {
@@ -117,6 +143,12 @@ FieldView to_view(const dif_field* field) {
   const dif_field given = read_field_struct(field);
   validate(Grid{.dims = to_index(given.dims)});
   return to_view(given);
+}
+
+ValueView to_values(const dif_field* values) {
+  const dif_field given = read_field_struct(values);
+  validate(Grid{.dims = to_index(given.dims)});
+  return to_values(given);
 }
 
 Grid to_grid(const dif_grid* grid) {

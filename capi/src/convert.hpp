@@ -11,6 +11,7 @@
 #include "difmesh/field_view.hpp"
 #include "difmesh/grid.hpp"
 #include "difmesh/options.hpp"
+#include "difmesh/values.hpp"
 
 namespace difmesh::capi {
 
@@ -33,6 +34,8 @@ template <class Enum, std::size_t count>
 void require_zero(std::int32_t reserved, const char* struct_name);
 [[nodiscard]] ScalarType to_scalar_type(std::int32_t type);
 [[nodiscard]] std::int32_t from_scalar_type(ScalarType type);
+[[nodiscard]] ValueType to_value_type(std::int32_t type);
+[[nodiscard]] std::int32_t from_value_type(ValueType type);
 [[nodiscard]] Progress to_progress(dif_progress progress, void* user);
 
 [[nodiscard]] Index3 to_index(const std::int64_t (&from)[3]);
@@ -49,6 +52,8 @@ struct Field {
 [[nodiscard]] Field to_field(const dif_field* field);
 /// The same without origin and spacing.
 [[nodiscard]] FieldView to_view(const dif_field* field);
+/// The same of values, whose type may be any.
+[[nodiscard]] ValueView to_values(const dif_field* values);
 [[nodiscard]] Grid to_grid(const dif_grid* grid);
 [[nodiscard]] Sides to_sides(const std::int32_t (&from)[6]);
 [[nodiscard]] Options to_options(const dif_options* options);

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <array>
+#include <string>
+#include <vector>
 
 #include "boundary.hpp"
 #include "convert.hpp"
@@ -36,18 +38,64 @@ difmesh::RawLayout to_layout(const dif_raw_layout* layout) {
   dif_raw_layout defaults{};
   dif_raw_layout_init(&defaults, sizeof defaults);
   const dif_raw_layout given = capi::read_struct(layout, defaults, "layout");
-  return {capi::to_index(given.dims), capi::to_scalar_type(given.type),
+  return {capi::to_index(given.dims), capi::to_value_type(given.type),
           capi::to_bool(given.big_endian, "big_endian"), given.offset};
+}
+
+difmesh::ReadFieldOptions to_options(const dif_field_read_options* options) {
+  dif_field_read_options defaults{};
+  dif_field_read_options_init(&defaults, sizeof defaults);
+  const dif_field_read_options given = capi::read_struct(options, defaults, "options");
+  difmesh::ReadFieldOptions result;
+  if (capi::to_bool(given.has_origin, "has_origin")) {
+    result.origin = capi::to_vec(given.origin);
+  }
+  if (capi::to_bool(given.has_spacing, "has_spacing")) {
+    result.spacing = capi::to_vec(given.spacing);
+  }
+  if (capi::to_bool(given.has_full_value, "has_full_value")) {
+    result.values = {given.empty_value, given.full_value};
+  }
+  result.outside_files = capi::to_bool(given.outside_files, "outside_files");
+  capi::required_array(given.labels, given.label_count, "labels");
+  result.labels.assign(given.labels, given.labels + given.label_count);
+  return result;
 }
 
 }  // namespace
 
 dif_status dif_field_read(const char* path, const dif_raw_layout* layout, dif_field_file** file) {
+  return dif_field_read_with(path, layout, nullptr, file);
+}
+
+dif_status dif_field_read_with(const char* path, const dif_raw_layout* layout,
+                               const dif_field_read_options* options, dif_field_file** file) {
   return capi::guarded([&] {
     dif_field_file*& handle = capi::out_handle(file, "file");
     const char* name = &capi::required(path, "path");
-    handle = new dif_field_file{layout == nullptr ? difmesh::read_field(name)
-                                                  : difmesh::read_field(name, to_layout(layout))};
+    const difmesh::ReadFieldOptions chosen = to_options(options);
+    handle = new dif_field_file{layout == nullptr
+                                    ? difmesh::read_field(name, chosen)
+                                    : difmesh::read_field(name, to_layout(layout), chosen)};
+  });
+}
+
+dif_status dif_field_file_warning(const dif_field_file* file, int64_t index, const char** text) {
+  return capi::guarded([&] {
+    const std::vector<std::string>& warnings = capi::required(file, "file").file.warnings;
+    capi::required(text, "text");
+    if (index < 0) {
+      capi::fail_argument("index is " + std::to_string(index) + "; it must not be negative");
+    }
+    const bool known = index < static_cast<std::int64_t>(warnings.size());
+    *text = known ? warnings[static_cast<std::size_t>(index)].c_str() : nullptr;
+  });
+}
+
+dif_status dif_field_file_type(const dif_field_file* file, int32_t* type) {
+  return capi::guarded([&] {
+    const difmesh::FieldFile& read = capi::required(file, "file").file;
+    capi::required(type, "type") = capi::from_value_type(read.file_type);
   });
 }
 

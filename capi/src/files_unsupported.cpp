@@ -31,11 +31,30 @@ dif_status dif_mesh_read(const char* /*path*/, dif_mesh** mesh) {
   return unsupported();
 }
 
+dif_status dif_mesh_read_with(const char* /*path*/, const dif_mesh_read_options* /*options*/,
+                              dif_mesh** mesh) {
+  return dif_mesh_read(nullptr, mesh);
+}
+
 dif_status dif_field_read(const char* /*path*/, const dif_raw_layout* /*layout*/,
                           dif_field_file** file) {
   if (file != nullptr) {
     *file = nullptr;
   }
+  return unsupported();
+}
+
+dif_status dif_field_read_with(const char* /*path*/, const dif_raw_layout* /*layout*/,
+                               const dif_field_read_options* /*options*/, dif_field_file** file) {
+  return dif_field_read(nullptr, nullptr, file);
+}
+
+dif_status dif_field_file_warning(const dif_field_file* /*file*/, int64_t /*index*/,
+                                  const char** /*text*/) {
+  return unsupported();
+}
+
+dif_status dif_field_file_type(const dif_field_file* /*file*/, int32_t* /*type*/) {
   return unsupported();
 }
 

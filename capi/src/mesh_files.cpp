@@ -202,10 +202,20 @@ dif_status dif_mesh_write_reported(const dif_mesh* mesh, const char* path,
 }
 
 dif_status dif_mesh_read(const char* path, dif_mesh** mesh) {
+  return dif_mesh_read_with(path, nullptr, mesh);
+}
+
+dif_status dif_mesh_read_with(const char* path, const dif_mesh_read_options* options,
+                              dif_mesh** mesh) {
   return capi::guarded([&] {
     dif_mesh*& handle = capi::out_handle(mesh, "mesh");
     const char* name = &capi::required(path, "path");
+    const dif_mesh_read_options given =
+        capi::read_struct(options, dif_mesh_read_options{}, "options");
+    capi::require_zero(given.reserved, "options");
+    const difmesh::ReadMeshOptions chosen{.outside_files =
+                                              capi::to_bool(given.outside_files, "outside_files")};
     check_parts(difmesh::mesh_format_of(name), false);
-    handle = new dif_mesh(to_mesh(difmesh::read_scalar_mesh(name)));
+    handle = new dif_mesh(to_mesh(difmesh::read_scalar_mesh(name, chosen)));
   });
 }

@@ -73,11 +73,25 @@ dif_status dif_mesh_write_report_init(dif_mesh_write_report* report, uint64_t st
       [&] { capi::write_struct(report, struct_size, dif_mesh_write_report{}, "report"); });
 }
 
+dif_status dif_mesh_read_options_init(dif_mesh_read_options* options, uint64_t struct_size) {
+  return capi::guarded(
+      [&] { capi::write_struct(options, struct_size, dif_mesh_read_options{}, "options"); });
+}
+
 dif_status dif_raw_layout_init(dif_raw_layout* layout, uint64_t struct_size) {
   return capi::guarded([&] {
     dif_raw_layout value{};
     value.type = DIF_FLOAT64;
     capi::write_struct(layout, struct_size, value, "layout");
+  });
+}
+
+dif_status dif_field_read_options_init(dif_field_read_options* options, uint64_t struct_size) {
+  return capi::guarded([&] {
+    dif_field_read_options value{};
+    std::fill_n(value.spacing, 3, 1.0);
+    value.full_value = 1.0;
+    capi::write_struct(options, struct_size, value, "options");
   });
 }
 

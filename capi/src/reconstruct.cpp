@@ -60,7 +60,7 @@ dif_status dif_field_init(dif_field* field, uint64_t struct_size, const void* da
     validate(grid);
     dif_field value{};
     value.data = &capi::required(static_cast<const char*>(data), "data");
-    value.type = capi::from_scalar_type(capi::to_scalar_type(type));
+    value.type = capi::from_value_type(capi::to_value_type(type));
     const difmesh::Index3 strides{1, dims[0], dims[0] * dims[1]};
     std::copy_n(dims, 3, value.dims);
     std::copy_n(strides.begin(), 3, value.strides);

@@ -86,8 +86,8 @@ std::string to_text(const Index3& dims) {
 }
 
 std::int64_t bytes_promised(const std::filesystem::path& path, const Index3& dims,
-                            ScalarType type) {
-  std::int64_t bytes = size_of(type);
+                            std::int64_t element_bytes) {
+  std::int64_t bytes = element_bytes;
   for (const std::int64_t dim : dims) {
     if (dim < 1) {
       fail_format(path, "a field of " + to_text(dims) + " cells has no cells");
@@ -100,10 +100,9 @@ std::int64_t bytes_promised(const std::filesystem::path& path, const Index3& dim
   return bytes;
 }
 
-void swap_bytes(std::byte* elements, std::int64_t bytes, ScalarType type) {
-  const std::int64_t size = size_of(type);
-  for (std::int64_t at = 0; size > 1 && at < bytes; at += size) {
-    std::reverse(elements + at, elements + at + size);
+void swap_bytes(std::byte* elements, std::int64_t bytes, std::int64_t element_bytes) {
+  for (std::int64_t at = 0; element_bytes > 1 && at < bytes; at += element_bytes) {
+    std::reverse(elements + at, elements + at + element_bytes);
   }
 }
 
@@ -113,7 +112,7 @@ void write_elements(const FieldView& field, ScalarType to, const ByteSink& sink)
     for (std::int64_t j = 0; j < field.dims[1]; ++j) {
       copy_row(field, j, k, to, row.data());
       if constexpr (kBigEndianHost) {
-        swap_bytes(row.data(), static_cast<std::int64_t>(row.size()), to);
+        swap_bytes(row.data(), static_cast<std::int64_t>(row.size()), size_of(to));
       }
       sink(row.data(), row.size());
     }

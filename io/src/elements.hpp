@@ -21,9 +21,9 @@ inline constexpr bool kBigEndianHost = std::endian::native == std::endian::big;
 /// Bytes of a field as a file's header promises it. \throw Error file_format if a dim is below 1,
 ///   too_large if the product overflows.
 [[nodiscard]] std::int64_t bytes_promised(const std::filesystem::path& path, const Index3& dims,
-                                          ScalarType type);
+                                          std::int64_t element_bytes);
 /// Reverses the bytes of each element, in place.
-void swap_bytes(std::byte* elements, std::int64_t bytes, ScalarType type);
+void swap_bytes(std::byte* elements, std::int64_t bytes, std::int64_t element_bytes);
 
 using ByteSink = std::function<void(const std::byte* bytes, std::size_t count)>;
 

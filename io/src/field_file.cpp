@@ -1,14 +1,17 @@
 #include "difmesh/io/field_file.hpp"
 
 #include <string>
+#include <utility>
 
 #include "atomic_file.hpp"
 #include "difmesh/error.hpp"
 #include "elements.hpp"
 #include "input_file.hpp"
+#include "memory.hpp"
 #include "npy.hpp"
 #include "nrrd.hpp"
 #include "text.hpp"
+#include "value_cells.hpp"
 
 namespace difmesh {
 namespace {
@@ -42,7 +45,7 @@ void check_field(const std::filesystem::path& path, const FieldView& field,
       fail_argument(path, "the field has " + detail::to_text(field.dims) + " cells");
     }
   }
-  (void)detail::bytes_promised(path, field.dims, options.type.value_or(field.type));
+  (void)detail::bytes_promised(path, field.dims, size_of(options.type.value_or(field.type)));
   if (grid) {
     validate(*grid);
     if (grid->dims != field.dims) {
@@ -55,6 +58,29 @@ void check_field(const std::filesystem::path& path, const FieldView& field,
   }
 }
 
+FieldFile read_raw(const std::filesystem::path& path, const RawLayout& layout,
+                   const ReadFieldOptions& options) {
+  const detail::InputFile file(path);
+  const std::int64_t element = size_of(layout.type);
+  const std::int64_t bytes = detail::bytes_promised(path, layout.dims, element);
+  if (layout.offset > file.size() || file.size() - layout.offset != bytes) {
+    detail::fail_format(path, detail::to_text(layout.dims) + " cells of " +
+                                  std::to_string(element) + " bytes from byte " +
+                                  std::to_string(layout.offset) + " are " + std::to_string(bytes) +
+                                  " bytes; the file has " + std::to_string(file.size()) +
+                                  " bytes in all");
+  }
+  detail::RawCells raw{layout.type, layout.big_endian, false, {}};
+  detail::make_room(path, raw.bytes, bytes);
+  file.read(layout.offset, raw.bytes.data(), bytes);
+  FieldFile field;
+  field.dims = layout.dims;
+  field.strides = {1, layout.dims[0], layout.dims[0] * layout.dims[1]};
+  detail::set_cells(path, std::move(raw), options, field);
+  detail::override_grid(options, field);
+  return field;
+}
+
 }  // namespace
 
 FieldView FieldFile::view() const {
@@ -65,13 +91,14 @@ Grid FieldFile::grid() const {
   return {dims, origin.value_or(Vec3{0.0, 0.0, 0.0}), spacing.value_or(Vec3{1.0, 1.0, 1.0})};
 }
 
-FieldFile read_field(const std::filesystem::path& path) {
+FieldFile read_field(const std::filesystem::path& path, const ReadFieldOptions& options) {
+  detail::check_options(path, options);
   const std::string extension = detail::extension_of(path);
   if (extension == ".npy") {
-    return detail::read_npy(path);
+    return detail::naming_file(path, [&] { return detail::read_npy(path, options); });
   }
   if (extension == ".nrrd" || extension == ".nhdr") {
-    return detail::read_nrrd(path);
+    return detail::naming_file(path, [&] { return detail::read_nrrd(path, options); });
   }
   if (extension == ".raw") {
     detail::fail_format(path, "a raw file tells neither its size nor its type: give a layout");
@@ -81,7 +108,8 @@ FieldFile read_field(const std::filesystem::path& path) {
                                 "raw files");
 }
 
-FieldFile read_field(const std::filesystem::path& path, const RawLayout& layout) {
+FieldFile read_field(const std::filesystem::path& path, const RawLayout& layout,
+                     const ReadFieldOptions& options) {
   for (const std::int64_t dim : layout.dims) {
     if (dim < 1 || layout.offset < 0) {
       throw Error(ErrorCode::invalid_argument,
@@ -90,25 +118,8 @@ FieldFile read_field(const std::filesystem::path& path, const RawLayout& layout)
                       "; each must be at least 1, the byte at least 0");
     }
   }
-  const detail::InputFile file(path);
-  const std::int64_t bytes = detail::bytes_promised(path, layout.dims, layout.type);
-  if (layout.offset > file.size() || file.size() - layout.offset != bytes) {
-    detail::fail_format(path, detail::to_text(layout.dims) + " cells of " +
-                                  std::to_string(size_of(layout.type)) + " bytes from byte " +
-                                  std::to_string(layout.offset) + " are " + std::to_string(bytes) +
-                                  " bytes; the file has " + std::to_string(file.size()) +
-                                  " bytes in all");
-  }
-  FieldFile field;
-  field.type = layout.type;
-  field.dims = layout.dims;
-  field.strides = {1, layout.dims[0], layout.dims[0] * layout.dims[1]};
-  field.cells.resize(static_cast<std::size_t>(bytes));
-  file.read(layout.offset, field.cells.data(), bytes);
-  if (layout.big_endian != detail::kBigEndianHost) {
-    detail::swap_bytes(field.cells.data(), bytes, field.type);
-  }
-  return field;
+  detail::check_options(path, options);
+  return detail::naming_file(path, [&] { return read_raw(path, layout, options); });
 }
 
 void write_field(const std::filesystem::path& path, const FieldView& field,

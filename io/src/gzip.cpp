@@ -107,11 +107,34 @@ void inflate_file(const InputFile& file, std::int64_t offset, std::int64_t skip,
     fail_format(file.path(), "truncated: the gzip stream holds " + std::to_string(found) +
                                  " bytes, " + std::to_string(bytes) + " wanted");
   }
-  // One byte more must not come; asking for it also has the checksum looked at.
+  // Rejects further bytes; asking for one also has the checksum looked at.
   if (inflater.read(waste.data(), 1) != 0) {
     fail_format(file.path(), "too long: the gzip stream holds more than the " +
                                  std::to_string(bytes) + " bytes wanted");
   }
+}
+
+void inflate_end_of_file(const InputFile& file, std::int64_t offset, std::int64_t most_before,
+                         std::byte* to, std::int64_t bytes) {
+  Inflater inflater(file, offset);
+  // Written round and round, then turned so that the oldest byte comes first.
+  std::int64_t before = -bytes;
+  std::int64_t at = 0;
+  for (std::int64_t wanted = bytes, found = bytes; found == wanted; before += found) {
+    if (before > most_before) {
+      fail_format(file.path(), "the gzip stream holds more than " + std::to_string(most_before) +
+                                   " bytes before the data");
+    }
+    at = at == bytes ? 0 : at;
+    wanted = std::min(bytes - at, std::int64_t{1} << 24);
+    found = inflater.read(to + at, wanted);
+    at += found;
+  }
+  if (before < 0) {
+    fail_format(file.path(), "truncated: the gzip stream holds " + std::to_string(before + bytes) +
+                                 " bytes, " + std::to_string(bytes) + " wanted");
+  }
+  std::rotate(to, to + at % bytes, to + bytes);
 }
 
 std::int64_t most_inflated(std::int64_t compressed) {

@@ -1,21 +1,28 @@
 #include "npy.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "difmesh/error.hpp"
 #include "elements.hpp"
 #include "input_file.hpp"
+#include "memory.hpp"
 #include "text.hpp"
+#include "value_cells.hpp"
 
 namespace difmesh::detail {
 namespace {
 
 constexpr std::string_view kMagic = "\x93NUMPY";
 constexpr std::int64_t kLongestHeader = 65536;  // numpy itself refuses more than 10,000
+constexpr std::size_t kMostAxes = 16;
 
 struct NpyHeader {
   std::string type;  ///< such as <f8
@@ -59,7 +66,7 @@ class DictParser {
     if (key == "descr") {
       first_time(key, 1);
       if (peek() == '[') {
-        fail("a structured type; arrays of f4, f8, u1, u2 or b1 can be read");
+        fail("a structured type, whose elements have several numbers; save one of its fields");
       }
       header_.type = string();
     } else if (key == "fortran_order") {
@@ -185,45 +192,95 @@ NpyHeader read_header(const InputFile& file) {
 }
 
 struct ElementType {
-  ScalarType scalar = ScalarType::float64;
+  ValueType value = ValueType::float64;
   bool big_endian = false;
   bool boolean = false;
+  bool half = false;  ///< f2; `value` is uint16 then
 };
+
+struct NamedType {
+  std::string_view name;
+  ValueType type;
+};
+constexpr std::array kTypes{
+    NamedType{"f4", ValueType::float32}, NamedType{"f8", ValueType::float64},
+    NamedType{"f2", ValueType::uint16},  NamedType{"b1", ValueType::uint8},
+    NamedType{"u1", ValueType::uint8},   NamedType{"u2", ValueType::uint16},
+    NamedType{"u4", ValueType::uint32},  NamedType{"u8", ValueType::uint64},
+    NamedType{"i1", ValueType::int8},    NamedType{"i2", ValueType::int16},
+    NamedType{"i4", ValueType::int32},   NamedType{"i8", ValueType::int64}};
 
 ElementType element_type(const std::filesystem::path& path, const std::string& name) {
   const std::string kind = name.empty() ? "" : name.substr(1);
   const char order = name.empty() ? '\0' : name[0];
-  const bool wide = kind == "f4" || kind == "f8" || kind == "u2";
-  const bool narrow = kind == "u1" || kind == "b1";
-  const bool known_order = order == '<' || order == '>' || order == '=' || (narrow && order == '|');
-  if ((!wide && !narrow) || !known_order) {
+  const auto known = std::find_if(kTypes.begin(), kTypes.end(),
+                                  [&](const NamedType& type) { return type.name == kind; });
+  if (kind.starts_with('O')) {
     fail_format(path, "elements of type '" + name +
-                          "'; f4, f8, u1, u2 and b1, little or big endian, can be read");
+                          "', that is, pickled objects of Python; save an array of numbers");
   }
-  ElementType type;
-  type.scalar = kind == "f4"   ? ScalarType::float32
-                : kind == "f8" ? ScalarType::float64
-                : kind == "u2" ? ScalarType::uint16
-                               : ScalarType::uint8;
-  type.big_endian = order == '>' || (order == '=' && kBigEndianHost);
-  type.boolean = kind == "b1";
-  return type;
+  if (known == kTypes.end() || !(order == '<' || order == '>' || order == '=' ||
+                                 (order == '|' && size_of(known->type) == 1))) {
+    fail_format(path, "elements of type '" + name +
+                          "'; f2, f4, f8, u1 to u8, i1 to i8 and b1, little or big endian, can "
+                          "be read");
+  }
+  return {known->type, order == '>' || (order == '=' && kBigEndianHost), kind == "b1",
+          kind == "f2"};
+}
+
+/// IEEE 754's numbers of 16 bits.
+float from_half(std::uint16_t half) {
+  const float sign = (half & 0x8000U) != 0 ? -1.0F : 1.0F;
+  const int exponent = static_cast<int>(half >> 10U & 0x1fU);
+  const auto digits = static_cast<float>(half & 0x3ffU);
+  if (exponent == 0x1f) {
+    return digits == 0.0F ? sign * std::numeric_limits<float>::infinity()
+                          : std::numeric_limits<float>::quiet_NaN();
+  }
+  return exponent == 0 ? sign * std::ldexp(digits, -24)
+                       : sign * std::ldexp(digits + 1024.0F, exponent - 25);
+}
+
+/// The same numbers as float32.
+RawCells widened(const std::filesystem::path& path, RawCells raw) {
+  const std::size_t count = raw.bytes.size() / 2;
+  if (raw.big_endian != kBigEndianHost) {
+    swap_bytes(raw.bytes.data(), static_cast<std::int64_t>(raw.bytes.size()), 2);
+  }
+  RawCells wide{ValueType::float32, kBigEndianHost, false, {}};
+  make_room(path, wide.bytes, static_cast<std::int64_t>(4 * count));
+  for (std::size_t n = 0; n < count; ++n) {
+    std::uint16_t half = 0;
+    std::memcpy(&half, raw.bytes.data() + 2 * n, sizeof half);
+    const float number = from_half(half);
+    std::memcpy(wide.bytes.data() + 4 * n, &number, sizeof number);
+  }
+  return wide;
+}
+
+/// Shape [k,j,i] to dims x, y, z, by three of its axes.
+Index3 dims_of(const std::filesystem::path& path, const NpyHeader& header) {
+  const std::size_t rank = header.shape.size();
+  const auto axes =
+      rank <= kMostAxes ? axes_of_field(header.shape, std::vector<bool>(rank, true)) : std::nullopt;
+  if (!axes) {
+    fail_format(path, "an array of rank " + std::to_string(rank) +
+                          "; a field has rank 3, indexed [k,j,i], and further axes of one element "
+                          "only where it is clear which they are");
+  }
+  return {header.shape[(*axes)[2]], header.shape[(*axes)[1]], header.shape[(*axes)[0]]};
 }
 
 }  // namespace
 
-FieldFile read_npy(const std::filesystem::path& path) {
+FieldFile read_npy(const std::filesystem::path& path, const ReadFieldOptions& options) {
   const InputFile file(path);
   const NpyHeader header = read_header(file);
-  if (header.shape.size() != 3) {
-    fail_format(path, "an array of rank " + std::to_string(header.shape.size()) +
-                          "; a field has rank 3, indexed [k,j,i]");
-  }
   const ElementType type = element_type(path, header.type);
   FieldFile field;
-  field.type = type.scalar;
-  field.dims = {header.shape[2], header.shape[1], header.shape[0]};
-  const std::int64_t bytes = bytes_promised(path, field.dims, field.type);
+  field.dims = dims_of(path, header);
+  const std::int64_t bytes = bytes_promised(path, field.dims, size_of(type.value));
   const std::int64_t found = file.size() - header.data_offset;
   if (found != bytes) {
     fail_format(path, (found < bytes ? "truncated: " : "too long: ") + to_text(field.dims) +
@@ -232,16 +289,14 @@ FieldFile read_npy(const std::filesystem::path& path) {
   }
   const auto [nx, ny, nz] = field.dims;
   field.strides = header.fortran_order ? Index3{nz * ny, nz, 1} : Index3{1, nx, nx * ny};
-  field.cells.resize(static_cast<std::size_t>(bytes));
-  file.read(header.data_offset, field.cells.data(), bytes);
-  if (type.big_endian != kBigEndianHost) {
-    swap_bytes(field.cells.data(), bytes, field.type);
+  RawCells raw{type.value, type.big_endian, type.boolean, {}};
+  make_room(path, raw.bytes, bytes);
+  file.read(header.data_offset, raw.bytes.data(), bytes);
+  if (type.half) {
+    raw = widened(path, std::move(raw));
   }
-  if (type.boolean) {
-    for (std::byte& cell : field.cells) {
-      cell = cell == std::byte{0} ? std::byte{0} : std::byte{255};
-    }
-  }
+  set_cells(path, std::move(raw), options, field);
+  override_grid(options, field);
   return field;
 }
 

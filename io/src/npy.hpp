@@ -9,7 +9,8 @@
 
 namespace difmesh::detail {
 
-[[nodiscard]] FieldFile read_npy(const std::filesystem::path& path);
+[[nodiscard]] FieldFile read_npy(const std::filesystem::path& path,
+                                 const ReadFieldOptions& options);
 void write_npy(AtomicFile& file, const FieldView& field, ScalarType type);
 
 }  // namespace difmesh::detail

@@ -10,7 +10,8 @@
 
 namespace difmesh::detail {
 
-[[nodiscard]] FieldFile read_nrrd(const std::filesystem::path& path);
+[[nodiscard]] FieldFile read_nrrd(const std::filesystem::path& path,
+                                  const ReadFieldOptions& options);
 /// options.type is set.
 void write_nrrd(AtomicFile& file, const FieldView& field, const std::optional<Grid>& grid,
                 const WriteFieldOptions& options);

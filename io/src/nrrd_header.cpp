@@ -4,12 +4,58 @@
 #include <set>
 #include <vector>
 
+#include "nrrd_axes.hpp"
 #include "text.hpp"
 
 namespace difmesh::detail {
 namespace {
 
 constexpr std::int64_t kLongestHeader = 1 << 20;
+
+struct NamedType {
+  std::string_view name;
+  ValueType type;
+};
+constexpr std::array kTypes{NamedType{"float", ValueType::float32},
+                            NamedType{"double", ValueType::float64},
+                            NamedType{"signed char", ValueType::int8},
+                            NamedType{"int8", ValueType::int8},
+                            NamedType{"int8_t", ValueType::int8},
+                            NamedType{"uchar", ValueType::uint8},
+                            NamedType{"unsigned char", ValueType::uint8},
+                            NamedType{"uint8", ValueType::uint8},
+                            NamedType{"uint8_t", ValueType::uint8},
+                            NamedType{"short", ValueType::int16},
+                            NamedType{"short int", ValueType::int16},
+                            NamedType{"signed short", ValueType::int16},
+                            NamedType{"signed short int", ValueType::int16},
+                            NamedType{"int16", ValueType::int16},
+                            NamedType{"int16_t", ValueType::int16},
+                            NamedType{"ushort", ValueType::uint16},
+                            NamedType{"unsigned short", ValueType::uint16},
+                            NamedType{"unsigned short int", ValueType::uint16},
+                            NamedType{"uint16", ValueType::uint16},
+                            NamedType{"uint16_t", ValueType::uint16},
+                            NamedType{"int", ValueType::int32},
+                            NamedType{"signed int", ValueType::int32},
+                            NamedType{"int32", ValueType::int32},
+                            NamedType{"int32_t", ValueType::int32},
+                            NamedType{"uint", ValueType::uint32},
+                            NamedType{"unsigned int", ValueType::uint32},
+                            NamedType{"uint32", ValueType::uint32},
+                            NamedType{"uint32_t", ValueType::uint32},
+                            NamedType{"longlong", ValueType::int64},
+                            NamedType{"long long", ValueType::int64},
+                            NamedType{"long long int", ValueType::int64},
+                            NamedType{"signed long long", ValueType::int64},
+                            NamedType{"signed long long int", ValueType::int64},
+                            NamedType{"int64", ValueType::int64},
+                            NamedType{"int64_t", ValueType::int64},
+                            NamedType{"ulonglong", ValueType::uint64},
+                            NamedType{"unsigned long long", ValueType::uint64},
+                            NamedType{"unsigned long long int", ValueType::uint64},
+                            NamedType{"uint64", ValueType::uint64},
+                            NamedType{"uint64_t", ValueType::uint64}};
 
 /// Fields without a say in where the samples are or what they are worth.
 constexpr std::array kIgnored{
@@ -20,6 +66,47 @@ constexpr std::array kIgnored{
     std::string_view{"units"},       std::string_view{"sampleunits"},
     std::string_view{"spaceunits"},  std::string_view{"measurementframe"},
 };
+
+constexpr std::array kAxisFields{std::string_view{"sizes"},    std::string_view{"spacings"},
+                                 std::string_view{"axismins"}, std::string_view{"axismaxs"},
+                                 std::string_view{"centers"},  std::string_view{"kinds"}};
+
+constexpr std::int64_t kMostAxes = 16;
+constexpr std::int64_t kMostFiles = 65536;
+constexpr std::int64_t kMostNumber = std::int64_t{1} << 40;
+
+/// A file's name with a number in it: slice%03d.raw.
+struct NumberedName {
+  std::string before;
+  std::string after;
+  std::size_t width = 0;
+  char fill = ' ';
+
+  [[nodiscard]] std::string with(std::int64_t number) const {
+    const std::string digits = std::to_string(number);
+    const std::size_t gap = width > digits.size() ? width - digits.size() : 0;
+    return before + std::string(gap, fill) + digits + after;
+  }
+};
+
+/// Nothing where the pattern has not exactly one % and what belongs to a number behind it.
+std::optional<NumberedName> numbered_name(std::string_view pattern) {
+  NumberedName name;
+  const std::size_t percent = pattern.find('%');
+  name.before = pattern.substr(0, percent);
+  pattern.remove_prefix(percent + 1);
+  if (pattern.starts_with('0')) {
+    name.fill = '0';
+  }
+  const std::size_t letter = pattern.find_first_not_of("0123456789");
+  if (letter > 4 || (pattern[letter] != 'd' && pattern[letter] != 'u') ||
+      pattern.find('%') != std::string_view::npos) {
+    return std::nullopt;
+  }
+  name.width = static_cast<std::size_t>(to_integer(pattern.substr(0, letter)).value_or(0));
+  name.after = pattern.substr(letter + 1);
+  return name.width <= 64 ? std::optional(name) : std::nullopt;
+}
 
 template <std::size_t N>
 bool one_of(std::string_view word, const std::array<std::string_view, N>& words) {
@@ -43,9 +130,10 @@ class HeaderParser {
     require("dimension");
     require("sizes");
     require("encoding");
-    if (header_.data_file.empty() && !ended) {
+    if (header_.data_files.empty() && !ended) {
       fail_format(path_, "truncated: no blank line ends the NRRD header");
     }
+    set_axes(path_, axes_, header_);
     header_.data_offset = static_cast<std::int64_t>(at_);
     return header_;
   }
@@ -121,11 +209,13 @@ class HeaderParser {
 
   bool sample_field(const std::string& field) {
     if (field == "type") {
-      header_.type = scalar_type();
+      header_.type = value_type();
     } else if (field == "dimension") {
-      if (value_ != "3") {
+      const std::optional<std::int64_t> dimension = to_integer(value_);
+      if (!dimension || *dimension < 3 || *dimension > kMostAxes) {
         fail("dimension " + std::string(value_) + "; a field has dimension 3");
       }
+      axes_.dimension = *dimension;
     } else if (field == "encoding") {
       header_.encoding = encoding();
     } else if (field == "endian") {
@@ -142,22 +232,15 @@ class HeaderParser {
     return true;
   }
 
-  [[nodiscard]] ScalarType scalar_type() const {
+  [[nodiscard]] ValueType value_type() const {
     const std::string name = lower_case(value_);
-    if (name == "float") {
-      return ScalarType::float32;
+    const auto known = std::find_if(kTypes.begin(), kTypes.end(),
+                                    [&](const NamedType& type) { return type.name == name; });
+    if (known == kTypes.end()) {
+      fail("type '" + std::string(value_) +
+           "'; float, double and integers of 8 to 64 bits can be read");
     }
-    if (name == "double") {
-      return ScalarType::float64;
-    }
-    if (name == "uchar" || name == "unsigned char" || name == "uint8" || name == "uint8_t") {
-      return ScalarType::uint8;
-    }
-    if (name == "ushort" || name == "unsigned short" || name == "unsigned short int" ||
-        name == "uint16" || name == "uint16_t") {
-      return ScalarType::uint16;
-    }
-    fail("type '" + std::string(value_) + "'; float, double, uchar and ushort can be read");
+    return known->type;
   }
 
   [[nodiscard]] NrrdEncoding encoding() const {
@@ -165,7 +248,7 @@ class HeaderParser {
     if (name == "raw") {
       return NrrdEncoding::raw;
     }
-    if (name == "gzip" || name == "gz") {
+    if (name == "gzip" || name == "gz" || name == "gzi") {
       return NrrdEncoding::gzip;
     }
     if (name == "ascii" || name == "text" || name == "txt") {
@@ -175,40 +258,12 @@ class HeaderParser {
   }
 
   bool axis_field(const std::string& field) {
-    if (field == "sizes") {
-      const std::vector<std::string_view> words = three_words();
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const std::optional<std::int64_t> size = to_integer(words[axis]);
-        if (!size) {
-          fail("size '" + std::string(words[axis]) + "' is no integer");
-        }
-        header_.sizes[axis] = *size;
-      }
-    } else if (field == "spacings") {
-      header_.spacings = three_numbers();
-    } else if (field == "axismins") {
-      header_.axis_mins = three_numbers();
-    } else if (field == "axismaxs") {
-      header_.axis_maxs = three_numbers();
-    } else if (field == "centers" || field == "centerings") {
-      const std::vector<std::string_view> words = three_words();
-      std::transform(words.begin(), words.end(), header_.node_centred.begin(),
-                     [](std::string_view word) { return lower_case(word) == "node"; });
-    } else if (field == "kinds") {
-      check_kinds();
-    } else {
+    const std::string one_name = field == "centerings" ? "centers" : field;
+    if (!one_of<kAxisFields.size()>(one_name, kAxisFields)) {
       return false;
     }
+    axes_.fields[one_name] = {name_, line_number_, words_of(value_)};
     return true;
-  }
-
-  void check_kinds() const {
-    constexpr std::array<std::string_view, 4> spatial{"domain", "space", "???", "none"};
-    for (const std::string_view kind : three_words()) {
-      if (!one_of<4>(lower_case(kind), spatial)) {
-        fail("an axis of kind '" + std::string(kind) + "'; a field has three axes in space");
-      }
-    }
   }
 
   bool space_field(const std::string& field) {
@@ -222,11 +277,12 @@ class HeaderParser {
         fail("space dimension " + std::string(value_) + "; a field lies in space of dimension 3");
       }
     } else if (field == "spacedirections") {
-      header_.space_directions.emplace();
-      for (Vec3& direction : *header_.space_directions) {
-        direction = vector();
+      axes_.directions_line = line_number_;
+      for (value_ = trimmed(value_); !value_.empty(); value_ = trimmed(value_)) {
+        const bool none = lower_case(value_.substr(0, 4)) == "none";
+        axes_.directions.push_back(none ? std::nullopt : std::optional<Vec3>(vector()));
+        value_.remove_prefix(none ? 4 : 0);
       }
-      expect_end();
     } else if (field == "spaceorigin") {
       header_.space_origin = vector();
       expect_end();
@@ -242,13 +298,7 @@ class HeaderParser {
     } else if (field == "byteskip") {
       header_.byte_skip = skip(-1);
     } else if (field == "datafile") {
-      if (value_.starts_with("LIST") || value_.find('%') != std::string_view::npos) {
-        fail("data in several files (LIST or %d); join them into one");
-      }
-      if (value_.empty()) {
-        fail("the data file has no name");
-      }
-      header_.data_file = std::string(value_);
+      data_files();
     } else {
       return false;
     }
@@ -263,12 +313,68 @@ class HeaderParser {
     return *number;
   }
 
-  [[nodiscard]] std::vector<std::string_view> three_words() const {
-    std::vector<std::string_view> words = words_of(value_);
-    if (words.size() != 3) {
-      fail("field '" + name_ + "' needs 3 values and has " + std::to_string(words.size()));
+  /// One name; LIST [DIMENSION] and names in the lines that follow; or a name with %d in it, the
+  /// first and the last number, the step and [DIMENSION].
+  void data_files() {
+    const std::vector<std::string_view> words = words_of(value_);
+    if (words.empty()) {
+      fail("the data file has no name");
     }
-    return words;
+    if (words[0] == "LIST" && words.size() <= 2) {
+      axes_.file_dimension = words.size() == 2 ? whole(words[1]) : 0;
+      while (next_line() && !line_.empty()) {
+        header_.data_files.emplace_back(line_);
+      }
+      at_ = text_.size();
+    } else if (is_pattern(words)) {
+      numbered_files(words);
+    } else {
+      header_.data_files.emplace_back(value_);
+    }
+    if (header_.data_files.empty() || header_.data_files.size() > kMostFiles) {
+      fail(std::to_string(header_.data_files.size()) + " data files");
+    }
+  }
+
+  [[nodiscard]] static bool is_pattern(const std::vector<std::string_view>& words) {
+    bool numbers = words.size() == 4 || words.size() == 5;
+    for (std::size_t n = 1; numbers && n < words.size(); ++n) {
+      numbers = to_integer(words[n]).has_value();
+    }
+    return numbers && words[0].find('%') != std::string_view::npos;
+  }
+
+  void numbered_files(const std::vector<std::string_view>& words) {
+    const std::optional<NumberedName> name = numbered_name(words[0]);
+    const std::int64_t first = whole(words[1]);
+    const std::int64_t last = whole(words[2]);
+    const std::int64_t step = whole(words[3]);
+    const bool ascends = step > 0;
+    // Small numbers, so that their differences do not overflow.
+    if (!name || step == 0 || std::max({first, last, step}) > kMostNumber ||
+        std::min(first, last) < 0 || step < -kMostNumber) {
+      fail("the data files " + in_quotes(value_) +
+           " need a name such as slice%03d.raw, the first and the last number, and a step");
+    }
+    if (ascends ? last < first : last > first) {
+      fail("no number from " + std::to_string(first) + " to " + std::to_string(last) +
+           " in steps of " + std::to_string(step));
+    }
+    if ((last - first) / step >= kMostFiles) {
+      fail(std::to_string((last - first) / step + 1) + " data files");
+    }
+    axes_.file_dimension = words.size() == 5 ? whole(words[4]) : 0;
+    for (std::int64_t n = first; ascends ? n <= last : n >= last; n += step) {
+      header_.data_files.push_back(name->with(n));
+    }
+  }
+
+  [[nodiscard]] std::int64_t whole(std::string_view word) const {
+    const std::optional<std::int64_t> number = to_integer(word);
+    if (!number) {
+      fail(in_quotes(word) + " in field " + in_quotes(name_) + " is no integer");
+    }
+    return *number;
   }
 
   [[nodiscard]] double number(std::string_view word) const {
@@ -277,11 +383,6 @@ class HeaderParser {
       fail(in_quotes(word) + " in field " + in_quotes(name_) + " is no number");
     }
     return *value;
-  }
-
-  [[nodiscard]] Vec3 three_numbers() const {
-    const std::vector<std::string_view> words = three_words();
-    return {number(words[0]), number(words[1]), number(words[2])};
   }
 
   /// Takes "(x,y,z)" off the front of the value.
@@ -325,6 +426,7 @@ class HeaderParser {
   std::string name_;        ///< of the field being parsed, as written
   std::string_view value_;  ///< of the field being parsed
   std::set<std::string> seen_;
+  NrrdAxes axes_;
   NrrdHeader header_;
 };
 

@@ -8,9 +8,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "difmesh/field_view.hpp"
 #include "difmesh/grid.hpp"
+#include "difmesh/values.hpp"
 #include "input_file.hpp"
 
 namespace difmesh::detail {
@@ -21,9 +23,10 @@ enum class NrrdEncoding : std::uint8_t { raw, gzip, ascii };
 /// the half spacing between them rounds. Other readers ignore it.
 inline constexpr std::string_view kLowCornerKey = "difmesh_low_corner";
 
-/// What the header says, axis by axis in the order of the file, checked for form but not for sense.
+/// What the header says of the three axes of the field, in the order of the file, checked for form
+/// but not for sense.
 struct NrrdHeader {
-  ScalarType type = ScalarType::float64;
+  ValueType type = ValueType::float64;
   Index3 sizes{0, 0, 0};
   std::optional<Vec3> spacings;
   std::optional<Vec3> axis_mins;
@@ -35,8 +38,9 @@ struct NrrdHeader {
   NrrdEncoding encoding = NrrdEncoding::raw;
   std::optional<bool> big_endian;
   std::int64_t line_skip = 0;
-  std::int64_t byte_skip = 0;    ///< -1: the data are the end of the file
-  std::string data_file;         ///< empty if the data follow the header
+  std::int64_t byte_skip = 0;  ///< -1: the data are the end of the file, or of what it inflates to
+  /// Each with as much of the data as the others; empty if the data follow the header.
+  std::vector<std::string> data_files;
   std::int64_t data_offset = 0;  ///< where they do
 };
 

@@ -108,6 +108,8 @@ AT_LEAST(dif_distance, 208);
 AT_LEAST(dif_mesh_write_options, 144);
 AT_LEAST(dif_mesh_write_report, 80);
 AT_LEAST(dif_raw_layout, 48);
+AT_LEAST(dif_mesh_read_options, 16);
+AT_LEAST(dif_field_read_options, 104);
 AT_LEAST(dif_field_write_options, 24);
 AT_LEAST(dif_block, 104);
 AT_LEAST(dif_curvature_options, 32);

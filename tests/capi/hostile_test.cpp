@@ -55,6 +55,19 @@ struct Bench {
   const char* text = nullptr;
   dif_mesh_write_options write_options = test::prepared(dif_mesh_write_options_init);
   dif_mesh_write_report write_report = test::prepared(dif_mesh_write_report_init);
+  std::vector<std::int16_t> raw_values = std::vector<std::int16_t>(64, 3);
+  dif_field raw = values_of(raw_values);
+  std::int64_t labels[2] = {3, -1};
+  std::vector<std::uint8_t> mask = std::vector<std::uint8_t>(64, 7);
+  dif_field_read_options read_options = test::prepared(dif_field_read_options_init);
+  dif_mesh_read_options mesh_options = test::prepared(dif_mesh_read_options_init);
+
+  static dif_field values_of(const std::vector<std::int16_t>& values) {
+    const std::int64_t dims[3] = {4, 4, 4};
+    dif_field field{};
+    REQUIRE(dif_field_init(&field, sizeof field, values.data(), DIF_INT16, dims) == DIF_OK);
+    return field;
+  }
 
   Bench() {
     dif_shape* made = nullptr;
@@ -657,6 +670,118 @@ std::vector<Case> write_cases() {
   };
 }
 
+dif_status from_values(Bench& b) {
+  return dif_fractions_from_values(&b.raw, 0.0, 6.0, b.numbers.data());
+}
+dif_status from_labels(Bench& b) {
+  return dif_fractions_from_labels(&b.raw, 2, b.labels, b.mask.data());
+}
+dif_status extremes(Bench& b) {
+  return dif_value_extremes(&b.raw, b.numbers.data(), b.numbers.data() + 1);
+}
+
+std::vector<Case> value_cases() {
+  const char* const v = "dif_fractions_from_values";
+  const char* const l = "dif_fractions_from_labels";
+  const char* const e = "dif_value_extremes";
+  return {
+      CALL("dif_reconstruct", dif_reconstruct(&b.raw, nullptr, &b.result), kArgument),
+      CALL(v, dif_fractions_from_values(nullptr, 0.0, 1.0, b.numbers.data()), kArgument),
+      CALL(v, dif_fractions_from_values(&b.raw, 0.0, 1.0, nullptr), kArgument),
+      CALL(v, dif_fractions_from_values(&b.raw, 2.0, 2.0, b.numbers.data()), kArgument),
+      CALL(v, dif_fractions_from_values(&b.raw, kNaN, 2.0, b.numbers.data()), kArgument),
+      CALL(v, dif_fractions_from_values(&b.raw, 0.0, kInfinity, b.numbers.data()), kArgument),
+      CHANGED(v, raw.type = 0, kArgument, from_values),
+      CHANGED(v, raw.type = 5, kArgument, from_values),
+      CHANGED(v, raw.type = 17, kArgument, from_values),
+      CHANGED(v, raw.data = nullptr, kArgument, from_values),
+      CHANGED(v, raw.dims[1] = 0, kGrid, from_values),
+      CHANGED(v, raw.strides[2] = kHuge, kArgument, from_values),
+      CHANGED(v, raw.struct_size = 12, kStruct, from_values),
+      CALL(l, dif_fractions_from_labels(nullptr, 2, b.labels, b.mask.data()), kArgument),
+      CALL(l, dif_fractions_from_labels(&b.raw, 2, nullptr, b.mask.data()), kArgument),
+      CALL(l, dif_fractions_from_labels(&b.raw, -2, b.labels, b.mask.data()), kArgument),
+      CALL(l, dif_fractions_from_labels(&b.raw, 0, b.labels, b.mask.data()), kArgument),
+      CALL(l, dif_fractions_from_labels(&b.raw, 2, b.labels, nullptr), kArgument),
+      CHANGED(l, raw.dims[0] = -1, kGrid, from_labels),
+      CALL(e, dif_value_extremes(nullptr, b.numbers.data(), b.numbers.data()), kArgument),
+      CALL(e, dif_value_extremes(&b.raw, nullptr, b.numbers.data()), kArgument),
+      CALL(e, dif_value_extremes(&b.raw, b.numbers.data(), nullptr), kArgument),
+      CHANGED(e, raw.type = -1, kArgument, extremes),
+  };
+}
+
+dif_status read_with(Bench& b) {
+  dif_field_file* file = reinterpret_cast<dif_field_file*>(&b);
+  const dif_status status = dif_field_read_with("/dev/null.npy", nullptr, &b.read_options, &file);
+  CHECK(file == nullptr);
+  return status;
+}
+
+dif_status read_mesh_with(Bench& b) {
+  b.result = reinterpret_cast<dif_mesh*>(&b);
+  const dif_status status = dif_mesh_read_with("/nowhere/x.gltf", &b.mesh_options, &b.result);
+  CHECK(b.result == nullptr);
+  return status;
+}
+
+std::vector<Case> field_reading_cases() {
+  const bool has_files = dif_has(DIF_PART_FILES) == 1;
+  const auto or_unsupported = [&](dif_status status) {
+    return has_files ? status : DIF_ERROR_UNSUPPORTED;
+  };
+  const char* const f = "dif_field_read_with";
+  const dif_status argument = or_unsupported(kArgument);
+  return {
+      CALL("dif_mesh_read_options_init", dif_mesh_read_options_init(nullptr, 16), kArgument),
+      CALL("dif_mesh_read_with", read_mesh_with(b), or_unsupported(DIF_ERROR_FILE_MISSING)),
+      CALL("dif_mesh_read_with", dif_mesh_read_with(nullptr, nullptr, &b.result), argument),
+      CALL("dif_mesh_read_with", dif_mesh_read_with("x.ply", nullptr, nullptr), argument),
+      CHANGED("dif_mesh_read_with", mesh_options.outside_files = 2, argument, read_mesh_with),
+      CHANGED("dif_mesh_read_with", mesh_options.reserved = 1, argument, read_mesh_with),
+      CHANGED("dif_mesh_read_with", mesh_options.struct_size = 12, or_unsupported(kStruct),
+              read_mesh_with),
+      CALL("dif_field_read_options_init", dif_field_read_options_init(nullptr, 104), kArgument),
+      CALL("dif_field_read_options_init", dif_field_read_options_init(&b.read_options, 7), kStruct),
+      CALL("dif_field_file_warning", dif_field_file_warning(nullptr, 0, &b.text), argument),
+      CALL("dif_field_file_type", dif_field_file_type(nullptr, nullptr), argument),
+      CALL(f, read_with(b), or_unsupported(DIF_ERROR_FILE_MISSING)),
+      CALL(f, dif_field_read_with("x.npy", nullptr, &b.read_options, nullptr), argument),
+      CHANGED(f, read_options.struct_size = 3, or_unsupported(kStruct), read_with),
+      CHANGED(f, read_options.has_origin = 2, argument, read_with),
+      CHANGED(f, read_options.has_spacing = -1, argument, read_with),
+      CHANGED(f, read_options.has_full_value = 2, argument, read_with),
+      CHANGED(f, read_options.outside_files = 2, argument, read_with),
+      CHANGED(f, read_options.label_count = -1, argument, read_with),
+      CHANGED(f, read_options.label_count = 1, argument, read_with),
+      {f, "a spacing of 0", argument,
+       [](Bench& b) {
+         b.read_options.has_spacing = 1;
+         b.read_options.spacing[1] = 0.0;
+         return read_with(b);
+       }},
+      {f, "an origin that is no number", argument,
+       [](Bench& b) {
+         b.read_options.has_origin = 1;
+         b.read_options.origin[2] = kNaN;
+         return read_with(b);
+       }},
+      {f, "a full value as the empty one", argument,
+       [](Bench& b) {
+         b.read_options.has_full_value = 1;
+         b.read_options.full_value = 0.0;
+         return read_with(b);
+       }},
+      {f, "labels and a full value", argument,
+       [](Bench& b) {
+         b.read_options.has_full_value = 1;
+         b.read_options.label_count = 1;
+         b.read_options.labels = b.labels;
+         return read_with(b);
+       }},
+  };
+}
+
 std::vector<Case> file_cases() {
   const bool has_files = dif_has(DIF_PART_FILES) == 1;
   const auto or_unsupported = [&](dif_status status) {
@@ -742,9 +867,9 @@ std::vector<Case> file_cases() {
 TEST_CASE("bad arguments give a status and a message at every function") {
   std::set<std::string> seen;
   std::size_t count = 0;
-  for (const auto& cases :
-       {field_cases(), mesh_cases(), smoothing_cases(), plane_cases(), fraction_cases(),
-        block_cases(), distance_cases(), file_cases(), write_cases()}) {
+  for (const auto& cases : {field_cases(), mesh_cases(), smoothing_cases(), plane_cases(),
+                            fraction_cases(), block_cases(), distance_cases(), file_cases(),
+                            write_cases(), value_cases(), field_reading_cases()}) {
     for (const Case& one : cases) {
       Bench bench;
       INFO(one.function << ": " << one.what);

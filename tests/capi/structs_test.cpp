@@ -128,6 +128,8 @@ TEST_CASE("init functions serve structs of every length") {
   check_init<dif_mesh_write_options>("mesh_write_options", dif_mesh_write_options_init);
   check_init<dif_mesh_write_report>("mesh_write_report", dif_mesh_write_report_init);
   check_init<dif_raw_layout>("raw_layout", dif_raw_layout_init);
+  check_init<dif_mesh_read_options>("mesh_read_options", dif_mesh_read_options_init);
+  check_init<dif_field_read_options>("field_read_options", dif_field_read_options_init);
   check_init<dif_field_write_options>("field_write_options", dif_field_write_options_init);
   check_init<dif_block>("block", dif_block_init);
   check_init<dif_curvature_options>("curvature_options", dif_curvature_options_init);

@@ -153,7 +153,7 @@ TEST_CASE("wrong values of options exit with 2 and are named") {
       {{"--raw-dims", "8,8", "--raw-type", "uint8"}, {"--raw-dims", "'8,8'"}},
       {{"--raw-dims", "8,0,8", "--raw-type", "uint8"}, {"--raw-dims", "'0'"}},
       {{"--raw-dims", "8,8,2.0", "--raw-type", "uint8"}, {"--raw-dims", "'2.0'"}},
-      {{"--raw-dims", "8,8,8", "--raw-type", "int32"}, {"--raw-type", "'int32'", "uint16"}},
+      {{"--raw-dims", "8,8,8", "--raw-type", "int12"}, {"--raw-type", "'int12'", "uint16"}},
       {{"--raw-dims", "8,8,8", "--raw-type", "uint8", "--raw-offset", "-1"},
        {"--raw-offset", "'-1'"}},
       {{"--quiet", "--frobnicate"}, {"--frobnicate"}},

@@ -47,14 +47,26 @@ void write(const std::string& path, const std::uint8_t* data, std::size_t size) 
   }
 }
 
-[[maybe_unused]] void read_field_through(const std::string& path) {
-  const difmesh::FieldFile file = difmesh::read_field(path);
+void reconstruct_read(const std::string& path, const difmesh::ReadFieldOptions& how) {
+  const difmesh::FieldFile file = difmesh::read_field(path, how);
   const difmesh::Grid grid = file.grid();
   difmesh::Options options;
   options.threads = 1;
   if (grid.dims[0] * grid.dims[1] * grid.dims[2] < kMostCells) {
     static_cast<void>(difmesh::reconstruct(file.view(), grid, options));
   }
+}
+
+// With the file's word for all, and with the caller's for the grid and the values.
+[[maybe_unused]] void read_field_through(const std::string& path) {
+  try {
+    reconstruct_read(path, {.origin = difmesh::Vec3{0, 0, 0},
+                            .spacing = difmesh::Vec3{1, 2, 3},
+                            .labels = {0, 1, -3}});
+  } catch (const difmesh::Error&) {
+    // Likewise to be expected.
+  }
+  reconstruct_read(path, {});
 }
 
 [[maybe_unused]] void read_mesh_through(const std::string& path) {

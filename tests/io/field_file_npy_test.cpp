@@ -127,18 +127,25 @@ TEST_CASE("npy: wrong rank says so") {
   check_refused(npy(1, dict("<f8", false, "(1,)"), row), ErrorCode::file_format, {"rank 1"});
   check_refused(npy(1, dict("<f8", false, "()"), row), ErrorCode::file_format, {"rank 0"});
   check_refused(npy(1, dict("<f8", false, "(1, 1)"), row), ErrorCode::file_format, {"rank 2"});
-  check_refused(npy(1, dict("<f8", false, "(1, 1, 1, 1)"), row), ErrorCode::file_format,
+  check_refused(npy(1, dict("<f8", false, "(2, 2, 2, 2)"), row), ErrorCode::file_format,
                 {"rank 4"});
+  std::string shape = "(2";
+  for (int axis = 1; axis < 40; ++axis) {
+    shape += ", 1";
+  }
+  check_refused(npy(1, dict("<f8", false, shape + ")"), row), ErrorCode::file_format, {"rank 40"});
 }
 
 TEST_CASE("npy: other types are refused with those that can be read") {
-  for (const std::string type : {"<f2", "<i4", "|i1", "<c8", "|S3", "<U1", "|O", "f8", "|f8", ""}) {
+  for (const std::string type :
+       {"<f16", "<i3", "<c8", "|S3", "<U1", "<M8", "f8", "|f8", "|i2", ""}) {
     check_refused(npy(1, dict(type, false), std::string(400, '\0')), ErrorCode::file_format,
-                  {"'" + type + "'", "f4, f8, u1, u2"});
+                  {"'" + type + "'", "f2, f4, f8, u1 to u8"});
   }
   check_refused(
       npy(1, "{'descr': [('a', '<f8')], 'fortran_order': False, 'shape': (1,1,1)}", "12345678"),
       ErrorCode::file_format, {"structured"});
+  check_refused(npy(1, dict("|O", false), "12345678"), ErrorCode::file_format, {"objects"});
 }
 
 TEST_CASE("npy: no cells and cells beyond counting") {

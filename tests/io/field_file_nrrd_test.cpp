@@ -159,13 +159,15 @@ TEST_CASE("nrrd: unusable axes are refused") {
     check_refused(raw_file(fields), words);
   };
   refused("space directions: (0.7,0.7,0) (-0.7,0.7,0) (0,0,1)\n", {"rotated", "axis 0"});
-  refused("space directions: (1,0,0) (0,1,1e-6) (0,0,1)\n", {"rotated", "axis 1"});
+  refused("space directions: (1,0,0) (0,1,2e-6) (0,0,1)\n", {"rotated", "axis 1"});
   refused("space directions: (1,0,0) (2,0,0) (0,0,1)\n", {"two space directions", "x"});
   refused("space directions: (0,0,0) (0,1,0) (0,0,1)\n", {"axis 0", "above 0"});
   refused("space directions: (nan,0,0) (0,1,0) (0,0,1)\n", {"not finite"});
-  refused("space directions: none (0,1,0) (0,0,1)\n", {"vectors"});
+  refused("space directions: none (0,1,0) (0,0,1)\n", {"axis 0", "no space direction"});
+  refused("space directions: north (0,1,0) (0,0,1)\n", {"vectors"});
+  refused("space directions: (1,0,0) (0,1,0)\n", {"needs 3 vectors and has 2"});
   refused("space directions: (1,0) (0,1) (0,1)\n", {"three components"});
-  refused("space directions: (1,0,0) (0,1,0) (0,0,1) (0,0,1)\n", {"more vectors"});
+  refused("space directions: (1,0,0) (0,1,0) (0,0,1) (0,0,1)\n", {"needs 3 vectors and has 4"});
   refused("space directions: (1,0,0) (0,1,0) (0,0,1)\nspacings: 1 1 1\n", {"exclude"});
   refused("space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (1,2,inf)\n", {"origin", "z"});
   refused("spacings: 1 0 1\n", {"spacing along axis 1 is 0"});
@@ -218,7 +220,6 @@ TEST_CASE("nrrd: broken gzip streams are told apart") {
   for (std::size_t length = 0; length < whole.size(); ++length) {
     check_refused(start + whole.substr(0, length), {"truncated"});
   }
-  check_refused(header("encoding: gzip\nbyte skip: -1\n\n") + whole, {"-1"});
   check_refused(header("encoding: gzip\nbyte skip: 1000\n\n") + whole, {"truncated", "byte 1000"});
 }
 
@@ -262,8 +263,6 @@ TEST_CASE("nrrd: data in another file beside the header") {
   };
   refused("data file: none.raw\n", ErrorCode::file_missing, {"none.raw"});
   refused("data file: sub\n", ErrorCode::file_format, {"sub", "not a regular file"});
-  refused("data file: LIST\na.raw\n", ErrorCode::file_format, {"bad.nhdr", "several files"});
-  refused("data file: a%02d.raw 1 3 1\n", ErrorCode::file_format, {"bad.nhdr", "several files"});
   refused("data file:\n", ErrorCode::file_format, {"bad.nhdr", "no name"});
   (void)folder.file("sub/data.raw", data.substr(1));
   refused("data file: sub/data.raw\n", ErrorCode::file_format,
@@ -315,15 +314,19 @@ TEST_CASE("nrrd: malformed headers name the line and the matter") {
   check_refused("NRRD0004\nnonsense\n\n", {"line 2", "neither"});
   check_refused("NRRD0004\ntypo: double\n\n", {"line 2", "unknown field 'typo'"});
   check_refused("NRRD0004\ntype: double\ntype: double\n\n", {"line 3", "twice"});
-  check_refused("NRRD0004\ntype: int\n\n", {"'int'", "float, double, uchar and ushort"});
+  check_refused("NRRD0004\ntype: complex\n\n", {"'complex'", "float, double and integers"});
   check_refused("NRRD0004\ntype: block\n\n", {"'block'"});
   check_refused("NRRD0004\nblock size: 4\n\n", {"blocks"});
-  check_refused("NRRD0004\ndimension: 4\n\n", {"dimension 4"});
+  for (const char* dimension : {"2", "17", "x"}) {
+    check_refused("NRRD0004\ndimension: " + std::string(dimension) + "\n\n",
+                  {"dimension " + std::string(dimension)});
+  }
+  const std::string three = "NRRD0004\ntype: uchar\ndimension: 3\nencoding: raw\n";
   check_refused("NRRD0004\nencoding: bzip2\n\n", {"'bzip2'", "raw, gzip and ascii"});
   check_refused("NRRD0004\nencoding: hex\n\n", {"'hex'"});
   check_refused("NRRD0004\nendian: middle\n\n", {"'middle'"});
-  check_refused("NRRD0004\nsizes: 4 3\n\n", {"'sizes'", "3 values and has 2"});
-  check_refused("NRRD0004\nsizes: 4 3 2.5\n\n", {"'2.5'"});
+  check_refused(three + "sizes: 4 3\n\n", {"line 5", "'sizes'", "3 values and has 2"});
+  check_refused(three + "sizes: 4 3 2.5\n\n", {"line 5", "'2.5'"});
   check_refused("NRRD0004\ndimension: 3\nsizes: 4 3 2\nencoding: raw\n\n", {"no field 'type'"});
   check_refused("NRRD0004\ntype: double\nsizes: 4 3 2\nencoding: raw\n\n",
                 {"no field 'dimension'"});

@@ -15,6 +15,7 @@ using difmesh::FieldView;
 using difmesh::Grid;
 using difmesh::Index3;
 using difmesh::ScalarType;
+using difmesh::ValueType;
 using test::check_error;
 using test::TempFolder;
 
@@ -143,12 +144,12 @@ TEST_CASE("raw fields are read in both byte orders from any byte") {
     const auto path =
         folder.file("f.dat", "abc" + test::elements<std::uint16_t>(kDims, big_endian));
     const FieldFile field = difmesh::read_field(
-        path, {.dims = kDims, .type = ScalarType::uint16, .big_endian = big_endian, .offset = 3});
+        path, {.dims = kDims, .type = ValueType::uint16, .big_endian = big_endian, .offset = 3});
     CHECK(test::holds_values(field.view(), kDims));
   }
   const auto path = folder.file("f.raw", test::elements<float>(kDims));
   CHECK(test::holds_values(
-      difmesh::read_field(path, {.dims = kDims, .type = ScalarType::float32}).view(), kDims));
+      difmesh::read_field(path, {.dims = kDims, .type = ValueType::float32}).view(), kDims));
 }
 
 TEST_CASE("raw fields of another size than their layout are refused") {

@@ -164,7 +164,7 @@ TEST_CASE("pointers of Git LFS and git-annex are named as such and nothing stays
     test::check_error([&] { read(annex); }, ErrorCode::file_format, {"a pointer of git-annex"});
   }
   const difmesh::RawLayout layout{.dims = {1, 1, static_cast<std::int64_t>(lfs.size())},
-                                  .type = difmesh::ScalarType::uint8};
+                                  .type = difmesh::ValueType::uint8};
   test::check_error([&] { (void)difmesh::read_field(folder.file("f.raw", lfs), layout); },
                     ErrorCode::file_format, {"f.raw", "a pointer of Git LFS"});
   test::check_error(

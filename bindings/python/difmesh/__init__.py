@@ -35,6 +35,7 @@ from ._options import choice as _choice
 from ._planes import Planes, cell_planes, normals, plane_fraction, plane_offset
 from ._reconstruct import GHOST_LAYERS, reconstruct, reconstruct_block, weld
 from ._smoothing import Curvature, curvature, mollify, smooth
+from ._values import fractions_from_labels, fractions_from_values
 
 __version__ = "0.1.0"
 
@@ -68,6 +69,8 @@ __all__ = [
     "curvature",
     "distance",
     "distance_both_ways",
+    "fractions_from_labels",
+    "fractions_from_values",
     "has",
     "library_version",
     "mollify",

@@ -9,7 +9,20 @@ import numpy as np
 import numpy.typing as npt
 
 from ._field import Field
-from ._structs import FLOAT32, FLOAT64, UINT8, UINT16, DifField, DifGrid
+from ._structs import (
+    FLOAT32,
+    FLOAT64,
+    INT8,
+    INT16,
+    INT32,
+    INT64,
+    UINT8,
+    UINT16,
+    UINT32,
+    UINT64,
+    DifField,
+    DifGrid,
+)
 
 #: One number for all three axes, or three for x, y and z.
 Triple = Union[float, Sequence[float], npt.NDArray[Any]]
@@ -20,6 +33,16 @@ TYPES: dict[np.dtype[Any], int] = {
     np.dtype(np.float64): FLOAT64,
     np.dtype(np.uint8): UINT8,
     np.dtype(np.uint16): UINT16,
+}
+#: Those of values, of which fractions can be made.
+VALUE_TYPES: dict[np.dtype[Any], int] = {
+    **TYPES,
+    np.dtype(np.int8): INT8,
+    np.dtype(np.int16): INT16,
+    np.dtype(np.int32): INT32,
+    np.dtype(np.uint32): UINT32,
+    np.dtype(np.int64): INT64,
+    np.dtype(np.uint64): UINT64,
 }
 
 
@@ -116,8 +139,14 @@ def fractions_array(fractions: Any) -> npt.NDArray[Any]:
     if array.dtype not in TYPES:
         raise TypeError(
             f"fractions have dtype {array.dtype}; float32, float64, uint8, uint16 and bool are "
-            "possible: scale and convert them, for instance with astype(numpy.float32)"
+            "possible: give full_value or labels, or scale and convert them, for instance with "
+            "astype(numpy.float32)"
         )
+    _check_alignment(array)
+    return array
+
+
+def _check_alignment(array: npt.NDArray[Any]) -> None:
     size = array.itemsize
     if not array.flags.aligned or any(
         stride % size for stride, length in zip(array.strides, array.shape) if length > 1
@@ -126,7 +155,28 @@ def fractions_array(fractions: Any) -> npt.NDArray[Any]:
             f"fractions lie unaligned: strides of {array.strides} bytes from an address of "
             f"{array.ctypes.data % size} modulo {size}, for elements of {size} bytes; use copy()"
         )
-    return array
+
+
+def values_array(values: Any) -> npt.NDArray[Any]:
+    """Values as the library takes them, copied where their type or place asks for that."""
+    if isinstance(values, np.ma.MaskedArray):
+        raise TypeError("values are a masked array; give cells without a value one, by filled()")
+    array = np.asarray(values)
+    if array.ndim != 3:
+        raise ValueError(f"values must have 3 axes, got an array of shape {array.shape}")
+    if array.dtype == np.bool_:
+        array = array.view(np.uint8)
+    if array.dtype == np.float16:
+        array = array.astype(np.float32)
+    array = array.astype(array.dtype.newbyteorder("="), copy=False)
+    if array.dtype not in VALUE_TYPES:
+        raise TypeError(f"values have dtype {array.dtype}; integers and floats are possible")
+    return array if _is_regular(array) else array.copy()
+
+
+def _is_regular(array: npt.NDArray[Any]) -> bool:
+    """Whether strides are whole elements."""
+    return array.flags.aligned and all(stride % array.itemsize == 0 for stride in array.strides)
 
 
 def field_struct(
@@ -140,20 +190,26 @@ def field_struct(
         origin = fractions.origin if origin is None else origin
         fractions = fractions.fractions
     array = fractions_array(fractions)
+    struct = array_struct(array, axes)
+    struct.origin = triple(0.0 if origin is None else origin, "origin")
+    struct.spacing = triple(1.0 if spacing is None else spacing, "spacing")
+    return struct, array
+
+
+def array_struct(array: npt.NDArray[Any], axes: str) -> DifField:
+    """The library's view of an array, with origin 0 and spacing 1."""
     order = axis_order(axes)
     strides = [
         stride // array.itemsize if length > 1 else 0
         for stride, length in zip(array.strides, array.shape)
     ]
-    struct = DifField(
+    return DifField(
         data=array.ctypes.data,
-        type=TYPES[array.dtype],
+        type=VALUE_TYPES[array.dtype],
         dims=array.shape[order],
         strides=tuple(strides[order]),
-        origin=triple(0.0 if origin is None else origin, "origin"),
-        spacing=triple(1.0 if spacing is None else spacing, "spacing"),
+        spacing=(1.0, 1.0, 1.0),
     )
-    return struct, array
 
 
 def path_bytes(path: Path) -> bytes:

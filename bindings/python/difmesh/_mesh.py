@@ -11,9 +11,9 @@ import numpy.typing as npt
 
 from ._calls import Handle
 from ._errors import check, warn_of
-from ._library import library
+from ._library import defaults, library
 from ._memory import Path, address_of, from_address, path_bytes
-from ._structs import DifMeasure, DifMeshWriteReport, DifReport
+from ._structs import DifMeasure, DifMeshReadOptions, DifMeshWriteReport, DifReport
 from ._write_options import text_bytes, to_write_options
 
 
@@ -322,13 +322,17 @@ class Mesh:
         return Mesh, (self.points, self.faces, self.normals, self.edge_ids, self.scalars)
 
 
-def read_mesh(path: Path) -> Mesh:
+def read_mesh(path: Path, *, outside_files: bool = False) -> Mesh:
     """Reads what Mesh.save() writes, told by the extension.
 
     What is left out of the file or taken otherwise than it says is a difmesh.Warning.
+    outside_files: whether buffers of glTF may lie outside the folder of the file.
     """
+    options = defaults(DifMeshReadOptions, "dif_mesh_read_options_init")
+    options.outside_files = bool(outside_files)
     handle = new_mesh_handle()
-    check(library.dif_mesh_read(path_bytes(path), byref(handle.pointer)))
+    name = path_bytes(path)
+    check(library.dif_mesh_read_with(name, byref(options), byref(handle.pointer)))
     warn_of(handle.pointer, library.dif_mesh_warning)
     return Mesh._from_handle(handle)
 

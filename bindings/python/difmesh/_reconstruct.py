@@ -14,6 +14,7 @@ from ._memory import Triple, field_struct, grid_struct, index_triple
 from ._mesh import Mesh, new_mesh_handle
 from ._options import to_options
 from ._structs import DifBlock
+from ._values import Labels, taken_as_asked, warn_of_small_values
 
 #: Ghost cells that a block needs beyond each face, as far as the domain reaches.
 GHOST_LAYERS = 5
@@ -25,6 +26,9 @@ def reconstruct(
     spacing: Optional[Triple] = None,
     origin: Optional[Triple] = None,
     axes: str = "kji",
+    full_value: Optional[float] = None,
+    empty_value: float = 0.0,
+    labels: Optional[Labels] = None,
     placement: str = "plic",
     normals: str = "height_function",
     sides: Union[str, Sequence[str]] = "open",
@@ -50,6 +54,11 @@ def reconstruct(
         that of the Field, or 1 and 0.
     axes: "kji" if the array is indexed [k, j, i], z first and x last, as C and most files have
         it; "ijk" if it is indexed [i, j, k]. Says nothing of how it lies in memory.
+    full_value, empty_value: the values that stand for 1 and 0, as fractions_from_values() takes
+        them; the array may then be of any integers or floats.
+    labels: one integer or several; cells with one of these values are full, the others empty. If
+        neither is given and the mesh is empty though integers are not all 0, a Warning names the
+        highest value.
     placement: "plic" (second-order accurate), "manson", "linear" (plain marching cubes) or
         "midpoint".
     normals: how those of cells are estimated: "height_function", "myc", "youngs", "elvira" or
@@ -71,7 +80,8 @@ def reconstruct(
     TooLargeError, OutOfMemoryError, CancelledError.
     """
     relay = Relay(progress)
-    field, array = field_struct(fractions, spacing, origin, axes)
+    asked = taken_as_asked(fractions, full_value, empty_value, labels)
+    field, array = field_struct(asked, spacing, origin, axes)
     options = to_options(
         relay,
         sides,
@@ -86,8 +96,11 @@ def reconstruct(
     )
     handle = new_mesh_handle()
     relay.call(library.dif_reconstruct, byref(field), byref(options), byref(handle.pointer))
+    mesh = Mesh._from_handle(handle)
+    if asked is fractions and len(mesh.faces) == 0:
+        warn_of_small_values(array, stacklevel=2)
     del array  # which had to live until here
-    return Mesh._from_handle(handle)
+    return mesh
 
 
 def reconstruct_block(

@@ -21,6 +21,7 @@ NO_PROGRESS = PROGRESS(0)
 FUNCTION = CFUNCTYPE(c_int32, c_void_p, c_int64, c_void_p, c_void_p)
 
 FLOAT32, FLOAT64, UINT8, UINT16 = 1, 2, 3, 4
+INT32, UINT32, INT64, INT8, INT16, UINT64 = 11, 12, 13, 14, 15, 16
 
 
 class Sized(Structure):
@@ -327,6 +328,14 @@ class DifMeshWriteReport(Sized):
     ]
 
 
+class DifMeshReadOptions(Sized):
+    _fields_ = [
+        ("struct_size", c_uint64),
+        ("outside_files", c_int32),
+        ("reserved", c_int32),
+    ]
+
+
 class DifRawLayout(Sized):
     _fields_ = [
         ("struct_size", c_uint64),
@@ -334,6 +343,22 @@ class DifRawLayout(Sized):
         ("type", c_int32),
         ("big_endian", c_int32),
         ("offset", c_int64),
+    ]
+
+
+class DifFieldReadOptions(Sized):
+    _fields_ = [
+        ("struct_size", c_uint64),
+        ("origin", c_double * 3),
+        ("spacing", c_double * 3),
+        ("has_origin", c_int32),
+        ("has_spacing", c_int32),
+        ("empty_value", c_double),
+        ("full_value", c_double),
+        ("has_full_value", c_int32),
+        ("outside_files", c_int32),
+        ("label_count", c_int64),
+        ("labels", c_void_p),
     ]
 
 

@@ -140,7 +140,7 @@ enum { DIF_FLOAT32 = 1, DIF_FLOAT64 = 2, DIF_UINT8 = 3, DIF_UINT16 = 4 };
 typedef struct dif_field {
   uint64_t struct_size;
   const void* data;   /* element of cell (0, 0, 0), aligned for its type */
-  int32_t type;       /* DIF_FLOAT64, ... */
+  int32_t type;       /* DIF_FLOAT64, ...; of values, see section 5, also DIF_INT8, ... */
   int32_t reserved;   /* 0 */
   int64_t dims[3];    /* cells in x, y, z; >= 1 each */
   int64_t strides[3]; /* elements from a cell to the next one in x, y, z; may be 0 or negative */
@@ -511,6 +511,24 @@ DIF_API dif_status dif_fractions_from_shape(const dif_grid* grid, const dif_shap
                                             const dif_function_options* options,
                                             dif_function_report* report, double* fractions);
 
+/* Values of scanners and segmentations, which become fractions here. They are described by a dif_field
+ * whose type may also be DIF_INT8, DIF_INT16, DIF_INT32, DIF_UINT32, DIF_INT64 or DIF_UINT64; its origin
+ * and spacing are not looked at. What comes out has one element per cell, x fastest. */
+enum { DIF_INT8 = 14, DIF_INT16 = 15, DIF_UINT64 = 16 };
+
+/* (value - empty) / (full - empty), values beyond counting as 0 or 1; `full` may be the smaller one. NaN
+ * stays NaN. Errors: INVALID_ARGUMENT (the two are equal or not finite), INVALID_GRID, STRUCT. Since 0.1. */
+DIF_API dif_status dif_fractions_from_values(const dif_field* values, double empty, double full,
+                                             double* fractions);
+/* 255, that is 1, where a value is one of the labels, else 0. Exact for integers of all sizes.
+ * Errors: INVALID_ARGUMENT (also for no labels), INVALID_GRID, STRUCT, OUT_OF_MEMORY. Since 0.1. */
+DIF_API dif_status dif_fractions_from_labels(const dif_field* values, int64_t count,
+                                             const int64_t* labels, uint8_t* fractions);
+/* The lowest and the highest value; NaN takes no part, and both are NaN where there is nothing else.
+ * A mask of 0 and 1 in DIF_UINT8 has the highest value 1, of 255 that dif_reconstruct() takes for full.
+ * Errors: INVALID_ARGUMENT, INVALID_GRID, STRUCT. Since 0.1. */
+DIF_API dif_status dif_value_extremes(const dif_field* values, double* lowest, double* highest);
+
 typedef struct dif_mollify_options {
   uint64_t struct_size;
   double radius;    /* where the kernel ends, in cells; [1, 8]; 2 */
@@ -682,7 +700,9 @@ DIF_API dif_status dif_mesh_smooth(const dif_mesh* mesh, const dif_grid* grid,
 /* ============================== 7. Files ====================================================== */
 
 /* Paths are those of the system, on POSIX any bytes but 0. Files appear under their names when they
- * are complete and not before; on failure nothing is left. All functions return UNSUPPORTED in a
+ * are complete and not before; on failure nothing is left. Files that a file names, the data of .nhdr and
+ * the buffers of .gltf, must be named relative to its folder and lie in it or below, symbolic links
+ * resolved, unless `outside_files` is set: a file from a stranger must not read others. All functions return UNSUPPORTED in a
  * build without files. */
 
 /* Formats of meshes. */
@@ -785,6 +805,18 @@ DIF_API dif_status dif_mesh_read(const char* path, dif_mesh** mesh);
  * of UTF-8. Other meshes have none. Errors: INVALID_ARGUMENT. Since 0.1. */
 DIF_API dif_status dif_mesh_warning(const dif_mesh* mesh, int64_t index, const char** text);
 
+typedef struct dif_mesh_read_options {
+  uint64_t struct_size;
+  int32_t outside_files; /* 1: buffers of glTF may lie outside the folder of the file; default 0 */
+  int32_t reserved;      /* 0 */
+} dif_mesh_read_options;
+
+/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
+DIF_API dif_status dif_mesh_read_options_init(dif_mesh_read_options* options, uint64_t struct_size);
+/* dif_mesh_read() with options. Errors: likewise, and INVALID_ARGUMENT, STRUCT. Since 0.1. */
+DIF_API dif_status dif_mesh_read_with(const char* path, const dif_mesh_read_options* options,
+                                      dif_mesh** mesh);
+
 /* A field read from a file, with its memory. */
 typedef struct dif_field_file dif_field_file;
 
@@ -792,7 +824,7 @@ typedef struct dif_field_file dif_field_file;
 typedef struct dif_raw_layout {
   uint64_t struct_size;
   int64_t dims[3];    /* cells in x, y, z */
-  int32_t type;       /* DIF_FLOAT64, ... */
+  int32_t type;       /* DIF_FLOAT64, ..., DIF_INT8, ... */
   int32_t big_endian; /* 0 or 1 */
   int64_t offset;     /* bytes before the first element */
 } dif_raw_layout;
@@ -804,6 +836,37 @@ DIF_API dif_status dif_raw_layout_init(dif_raw_layout* layout, uint64_t struct_s
  * Errors: INVALID_ARGUMENT, FILE_MISSING, FILE_FORMAT, TOO_LARGE, STRUCT, OUT_OF_MEMORY. Since 0.1. */
 DIF_API dif_status dif_field_read(const char* path, const dif_raw_layout* layout,
                                   dif_field_file** file);
+
+/* What is wanted of the file. */
+typedef struct dif_field_read_options {
+  uint64_t struct_size;
+  double origin[3];       /* if has_origin, in place of what the file tells, which is not judged then */
+  double spacing[3];      /* if has_spacing, likewise */
+  int32_t has_origin;     /* 0 or 1; 0 */
+  int32_t has_spacing;    /* 0 or 1; 0 */
+  double empty_value;     /* if has_full_value: what stands for 0; 0 */
+  double full_value;      /* and what stands for 1, as in dif_fractions_from_values(); 1 */
+  int32_t has_full_value; /* 0, the default: integers stand for value / (largest of their type) */
+  int32_t outside_files;  /* 1: data files may lie outside the folder of the header; default 0 */
+  int64_t label_count;    /* > 0: cells with one of `labels` are full, others empty; 0 */
+  const int64_t* labels;
+} dif_field_read_options;
+
+/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
+DIF_API dif_status dif_field_read_options_init(dif_field_read_options* options,
+                                               uint64_t struct_size);
+/* dif_field_read() with options. Where integers become shares of the largest value, types but UINT8 and
+ * UINT16 become FLOAT32 or FLOAT64. Errors: likewise. Since 0.1. */
+DIF_API dif_status dif_field_read_with(const char* path, const dif_raw_layout* layout,
+                                       const dif_field_read_options* options,
+                                       dif_field_file** file);
+/* Borrowed: warning number `index`, from 0, of the reading; NULL from their count on. It tells what a
+ * user must know though it is no error, in one English sentence of at most 1000 bytes of UTF-8.
+ * Errors: INVALID_ARGUMENT. Since 0.1. */
+DIF_API dif_status dif_field_file_warning(const dif_field_file* file, int64_t index,
+                                          const char** text);
+/* The type of the elements in the file, DIF_INT16 for instance. Errors: INVALID_ARGUMENT. Since 0.1. */
+DIF_API dif_status dif_field_file_type(const dif_field_file* file, int32_t* type);
 /* Frees the field; NULL is fine. Since 0.1. */
 DIF_API void dif_field_file_free(dif_field_file* file);
 /* Describes what was read: `field` borrows the memory of `file`. Origin 0 and spacing 1 where the

@@ -3,11 +3,12 @@ module fields_test
   use, intrinsic :: iso_c_binding
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use difmesh
-  use difmesh_c, only: dif_has
+  use difmesh_c, only: dif_has, dif_value_extremes
   use expect_module
   implicit none
   private
-  public :: test_views, test_bad_views, test_samples, test_planes, test_plane_arrays, test_files
+  public :: test_views, test_bad_views, test_samples, test_planes, test_plane_arrays, test_files, &
+    test_values, test_value_files
 
   real(8), parameter :: centre(3) = [8.2d0, 8.4d0, 9.1d0], normal(3) = [0.36d0, -0.48d0, 0.8d0]
   integer :: calls
@@ -264,6 +265,88 @@ contains
     real(8), intent(in) :: points(:, :)
     real(8), intent(out) :: values(:)
     values = matmul(normal, points) - 3.3d0
+  end subroutine
+
+  ! Labels and values of the solver's become the fractions of a mask and of a ramp.
+  subroutine test_values()
+    integer(c_int32_t), target :: i4(0:9, 0:8, 0:7)
+    integer(c_int64_t), target :: i8(8, 7, 6)
+    integer(c_int8_t), target :: mask(8, 7, 6), also(8, 7, 6)
+    real(8) :: fractions(8, 7, 6), low, high
+    integer :: i, j, k, status
+    character(1000) :: message
+    i4 = 99
+    do k = 1, 6
+      do j = 1, 7
+        do i = 1, 8
+          i8(i, j, k) = merge(-5, i + 10*j + 100*k, i == 4 .and. j == 3 .and. k == 2)
+        end do
+      end do
+    end do
+    i4(1:8, 1:7, 1:6) = int(i8, c_int32_t)
+    call dif_fractions_of_labels(dif_view(i4, ghosts=1), [-5, 111, 678, 1000], mask, status)
+    call expect(status == dif_ok, 'labels of four bytes')
+    call dif_fractions_of_labels(dif_view(i8), [-5, 111, 678, 1000], also, status)
+    call expect(all(mask == also), 'labels of eight bytes')
+    call expect(count(mask == -1_c_int8_t) == 3 .and. count(mask == 0) == size(mask) - 3, &
+      'bits of 255 or 0')
+    call expect(mask(4, 3, 2) == -1 .and. mask(1, 1, 1) == -1 .and. mask(8, 7, 6) == -1, 'where')
+    call dif_fractions_of_values(dif_view(i8), 500d0, fractions, status, empty=100d0)
+    call expect(status == dif_ok, 'values of eight bytes')
+    call expect(maxval(abs(fractions - min(max((i8 - 100)/400d0, 0d0), 1d0))) <= 0, 'a ramp')
+    call expect(dif_value_extremes(dif_view(i8), low, high) == dif_ok, 'extremes')
+    call expect(nint(low) == -5 .and. nint(high) == 678, 'extremes of values')
+    call dif_fractions_of_values(dif_view(i8), 0d0, fractions, status, message=message)
+    call expect(status == dif_error_invalid_argument, 'full as empty')
+    call dif_fractions_of_values(dif_view(i4), 1d0, fractions, status, message=message)
+    call expect(status == dif_error_invalid_argument, 'another shape')
+    call dif_fractions_of_labels(dif_view(i4), [1], mask, status)
+    call expect(status == dif_error_invalid_argument, 'labels in another shape')
+  end subroutine
+
+  subroutine test_value_files()
+    integer(c_int16_t), target :: i2(8, 7, 6)
+    real(8), allocatable :: c(:, :, :)
+    character(1000), allocatable :: warnings(:)
+    type(dif_field_file) :: file
+    type(dif_field_read_options) :: options
+    type(dif_raw_layout) :: layout
+    type(dif_field) :: field
+    integer :: status, none(0)
+    if (dif_has(dif_part_files) == 0) return
+    i2 = 3
+    i2(2:7, 2:6, 2:5) = 40
+    open (unit=11, file='values_test.raw', access='stream', form='unformatted', status='replace')
+    write (11) i2
+    close (11)
+    call dif_init(layout)
+    layout%dims = shape(i2)
+    layout%type = dif_int16
+    call file%read('values_test.raw', status, layout)
+    call expect(status == dif_ok, 'integers that are no fractions')
+    call file%get_warnings(warnings, status)
+    call expect(size(warnings) == 1, 'a warning')
+    call expect(index(warnings(1), 'highest value is 40') > 0, trim(warnings(1)))
+    call file%read('values_test.raw', status, layout, labels=[40])
+    call file%get_fractions(c, status)
+    call expect(count(c > 0.5d0) == 120 .and. nint(sum(c)) == 120, 'labels in a file')
+    call file%get_warnings(warnings, status)
+    call expect(size(warnings) == 0, 'no warning')
+    call dif_init(options)
+    options%has_full_value = 1
+    options%full_value = 43
+    options%empty_value = 3
+    options%has_spacing = 1
+    options%spacing = [1d0, 2d0, 3d0]
+    call file%read('values_test.raw', status, layout, options=options)
+    call file%get_fractions(c, status)
+    call expect(abs(c(2, 2, 2) - 37d0/40) < 1d-7 .and. abs(c(1, 1, 1)) <= 0, 'a full value')
+    call file%view(field, status)
+    call expect(nint(field%spacing(3)) == 3, 'a spacing of the caller''s')
+    call file%read('values_test.raw', status, layout, labels=none)
+    call expect(status == dif_error_invalid_argument, 'no labels')
+    open (unit=11, file='values_test.raw')
+    close (11, status='delete')
   end subroutine
 
   subroutine test_files()

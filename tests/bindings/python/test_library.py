@@ -62,7 +62,8 @@ class Interface(unittest.TestCase):
                     self.assertEqual(ctypes.sizeof(kind), 8, (name, parameter))
                 else:
                     words = {"int64_t": ctypes.c_int64, "uint64_t": ctypes.c_uint64,
-                             "int32_t": ctypes.c_int32, "dif_status": ctypes.c_int32}
+                             "int32_t": ctypes.c_int32, "dif_status": ctypes.c_int32,
+                             "double": ctypes.c_double}
                     self.assertIs(kind, words[parameter.split()[0]], (name, parameter))
 
     def test_constants(self):
@@ -88,6 +89,16 @@ class Interface(unittest.TestCase):
                 if name.startswith(prefix) and value != 0
             }
             self.assertEqual(getattr(getattr(difmesh, module), table), expected)
+        types = {
+            "DIF_" + dtype.name.upper(): number
+            for dtype, number in difmesh._memory.VALUE_TYPES.items()
+        }
+        declared = {
+            name: value
+            for name, value in constants.items()
+            if re.fullmatch(r"DIF_(FLOAT|U?INT)\d+", name)
+        }
+        self.assertEqual(types, declared)
         parts = {"DIF_PART_" + name.upper(): value for name, value in difmesh._PARTS.items()}
         declared = {name: value for name, value in constants.items() if "_PART_" in name}
         self.assertEqual(parts, declared)
