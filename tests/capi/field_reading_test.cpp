@@ -1,8 +1,9 @@
-// Options and warnings of reading fields through the C interface.
+// Options and warnings of reading through the C interface.
 
 #include <doctest/doctest.h>
 
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -119,4 +120,35 @@ TEST_CASE("data outside the folder of a header are read where that is allowed") 
   dif_field_read_options options = c::prepared(dif_field_read_options_init);
   options.outside_files = 1;
   CHECK(field_of(read(path, &options)).dims[0] == 4);
+}
+
+TEST_CASE("buffers outside the folder of a glTF file are read where that is allowed") {
+  if (dif_has(DIF_PART_GLTF) == 0) {
+    MESSAGE("skipped: no glTF");
+    return;
+  }
+  const TempFolder folder;
+  std::filesystem::create_directory(folder / "inner");
+  const auto mesh = c::c_reconstruct(c::c_field(c::blob({9, 8, 7})));
+  REQUIRE(dif_mesh_write(mesh.get(), (folder / "m.glb").c_str(), nullptr) == DIF_OK);
+  // A header of 20 bytes, whose last words are length and kind of the JSON; then that of the data.
+  const std::string glb = test::read_bytes(folder / "m.glb");
+  std::uint32_t length = 0;
+  std::memcpy(&length, glb.data() + 12, sizeof length);
+  std::string json = glb.substr(20, length);
+  const std::string buffers = "\"buffers\":[{";
+  REQUIRE(json.find(buffers) != std::string::npos);
+  json.insert(json.find(buffers) + buffers.size(), "\"uri\":\"../m.bin\",");
+  const auto path = folder.file("inner/m.gltf", json);
+  (void)folder.file("m.bin", glb.substr(20 + length + 8));
+  dif_mesh* read = nullptr;
+  CHECK(dif_mesh_read(path.c_str(), &read) == DIF_ERROR_FILE_FORMAT);
+  CHECK(read == nullptr);
+  dif_mesh_read_options options = c::prepared(dif_mesh_read_options_init);
+  options.outside_files = 1;
+  REQUIRE(dif_mesh_read_with(path.c_str(), &options, &read) == DIF_OK);
+  const c::MeshHandle again(read);
+  REQUIRE(dif_mesh_read((folder / "m.glb").c_str(), &read) == DIF_OK);
+  const c::MeshHandle whole(read);
+  CHECK(c::same_bits(c::mesh_of(again.get()), c::mesh_of(whole.get())));
 }

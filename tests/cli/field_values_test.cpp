@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -126,6 +127,39 @@ TEST_CASE("data outside the folder of a header need to be allowed") {
               {"f.nhdr", "../data.raw", "allowed"});
   check_succeeds(run_program({"info", header.string(), "--label", "3", "--allow-outside"}));
 }
+
+#if defined(DIFMESH_WITH_METRICS)
+TEST_CASE("buffers outside the folder of a glTF file need to be allowed by every command") {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder / "inner");
+  const auto field = folder.file("f.nrrd", nrrd("uint8", "", labels<std::uint8_t>()));
+  const std::string glb_path = (folder / "m.glb").string();
+  check_succeeds(
+      run_program({"reconstruct", field.string(), "--label", "3", "-o", glb_path, "--quiet"}));
+  const std::string glb = test::read_bytes(glb_path);
+  std::uint32_t length = 0;
+  std::memcpy(&length, glb.data() + 12, sizeof length);
+  nlohmann::json json = nlohmann::json::parse(glb.substr(20, length));
+  json["buffers"][0]["uri"] = "../m.bin";
+  (void)folder.file("m.bin", glb.substr(20 + length + 8));
+  const std::string mesh = folder.file("inner/m.gltf", json.dump()).string();
+  const std::string out = (folder / "out").string();
+  for (const Words& words :
+       {Words{"info", mesh}, Words{"sample", mesh, "-o", out + ".npy", "--cells", "8"},
+        Words{"compare", mesh, "--reference", glb_path},
+        Words{"compare", glb_path, "--reference", mesh},
+        Words{"reconstruct", field.string(), "--label", "3", "-o", out + ".glb", "--color-by",
+              "error", "--reference", mesh}}) {
+    CAPTURE(words[0]);
+    const Outcome refused = run_program(words);
+    CHECK(refused.exit_code == 1);
+    CHECK(refused.err.find("outside") != std::string::npos);
+    Words allowed = words;
+    allowed.emplace_back("--allow-outside");
+    CHECK(run_program(allowed).exit_code == 0);
+  }
+}
+#endif
 
 TEST_CASE("options of values are checked") {
   const TempFolder folder;

@@ -161,6 +161,25 @@ class Files(unittest.TestCase):
         np.testing.assert_array_equal(field.fractions, np.arange(6).reshape(1, 2, 3))
         self.assertEqual((field.spacing, field.origin), ((2, 2, 2), (1, 2, 3)))
 
+    @unittest.skipUnless(difmesh.has("gltf"), "a library without glTF")
+    def test_buffers_elsewhere(self):
+        mesh = difmesh.reconstruct(ball_mask())
+        mesh.save(self.path("m.glb"))
+        with open(self.path("m.glb"), "rb") as file:
+            data = file.read()
+        end = 20 + int.from_bytes(data[12:16], "little")
+        text = data[20:end].decode()
+        self.assertIn('"buffers":[{', text)
+        os.mkdir(self.path("inner"))
+        with open(self.path("inner/m.gltf"), "w") as file:
+            file.write(text.replace('"buffers":[{', '"buffers":[{"uri":"../m.bin",'))
+        with open(self.path("m.bin"), "wb") as file:
+            file.write(data[end + 8 :])
+        with self.assertRaisesRegex(difmesh.FileFormatError, "outside"):
+            difmesh.read_mesh(self.path("inner/m.gltf"))
+        again = difmesh.read_mesh(self.path("inner/m.gltf"), outside_files=True)
+        self.assertTrue(same_bits(again, difmesh.read_mesh(self.path("m.glb"))))
+
 
 if __name__ == "__main__":
     unittest.main()
