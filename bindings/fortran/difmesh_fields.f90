@@ -313,7 +313,8 @@ contains
     call finish(dif_fractions_from_values(values, low, full, fractions), status, message)
   end subroutine
 
-  ! The bits of 255, that is 1, into fractions(nx, ny, nz) where a value is one of the labels, else 0.
+  ! The bits of 255, that is 1, into fractions(nx, ny, nz) where a value is one of the labels, and 0
+  ! elsewhere; see dif_fractions_from_labels in difmesh.h.
   subroutine dif_fractions_of_labels(values, labels, fractions, status, message)
     type(dif_field), intent(in) :: values
     integer, intent(in) :: labels(:)

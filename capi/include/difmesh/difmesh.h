@@ -840,8 +840,8 @@ DIF_API dif_status dif_field_read(const char* path, const dif_raw_layout* layout
 /* What is wanted of the file. */
 typedef struct dif_field_read_options {
   uint64_t struct_size;
-  double origin[3];       /* if has_origin, in place of what the file tells, which is not judged then */
-  double spacing[3];      /* if has_spacing, likewise */
+  double origin[3];       /* if has_origin: replaces what the file tells, unjudged */
+  double spacing[3];      /* if has_spacing: likewise */
   int32_t has_origin;     /* 0 or 1; 0 */
   int32_t has_spacing;    /* 0 or 1; 0 */
   double empty_value;     /* if has_full_value: what stands for 0; 0 */
