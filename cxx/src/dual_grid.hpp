@@ -39,8 +39,7 @@ class DualGrid {
   [[nodiscard]] double coordinate(std::size_t axis, std::int64_t local) const {
     return coordinates_[axis][static_cast<std::size_t>(local)];
   }
-  /// Fraction of the node for the decision on ambiguous faces; >= 1/2 exactly where the node is
-  /// inside.
+  /// Fraction of the node for the decision on ambiguous faces; >= 1/2 where the node is inside, but for rounding.
   [[nodiscard]] double node_fraction(const Index3& node) const;
   /// Fraction of the cell that the node stands for.
   [[nodiscard]] double cell_fraction(const Index3& node, const NodeOrigin& origin) const;

@@ -6,8 +6,9 @@
 namespace difmesh::detail {
 namespace {
 
-// The line cuts a corner off the cell with fraction `cut`; `other` is its neighbour's. Position
-// from the cut cell, or nothing where the line does not run that way.
+// The line cuts a corner off the cell with fraction `cut` <= 1/2; `other` >= 1/2 is its neighbour's. Position from the
+// cut cell, or nothing where the line does not run that way. The denominator is 4 (√(cut + other) - √cut)² and least for
+// halves: 4 (1 - √½)² = 0.34.
 std::optional<double> corner_cut(double cut, double other) {
   if (!(cut > 0.0)) {
     return std::nullopt;
@@ -23,6 +24,7 @@ std::optional<double> corner_cut(double cut, double other) {
 
 }  // namespace
 
+// outer < 1/2 <= inner: their difference is positive, and the result in (0,1].
 double linear_position(double outer, double inner) {
   return (0.5 - outer) / (inner - outer);
 }
