@@ -180,3 +180,30 @@ TEST_CASE("weld: bad meshes are named") {
   CHECK(weld_error({good, bad}, grid) ==
         "weld: mesh 1 differs from mesh 0 in having normals or not");
 }
+
+TEST_CASE("weld: blocks that overlap are named") {
+  const OwnedField field = test::white_noise({8, 7, 20}, 4);
+  const Grid grid{field.dims, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}};
+  const auto block = [&](std::int64_t from, std::int64_t to) {
+    const std::int64_t low = std::min<std::int64_t>(from, kGhostLayers);
+    const std::int64_t high = std::min<std::int64_t>(20 - to, kGhostLayers);
+    const FieldView cells = field.view().sub({0, 0, from - low}, {8, 7, to - from + low + high});
+    return reconstruct_block(cells, {{0, 0, from}, {8, 7, to - from}, {0, 0, low}, {0, 0, high}},
+                             grid)
+        .mesh;
+  };
+  const Mesh low = block(0, 9);
+  const Mesh high = block(9, 20);
+  CHECK(weld_error({low, high}, grid).empty());
+  CHECK(weld_error({high, low}, grid).empty());
+  CHECK(weld_error({low}, grid).empty());
+  CHECK(weld_error({low, Mesh{}, high, Mesh{}}, grid).empty());
+  CHECK(weld_error({low, low}, grid) ==
+        "weld: mesh 1 has triangles between the same cells as mesh 0, those from (-1, -1, -1) on; "
+        "blocks must be disjoint");
+  CHECK(weld_error({low, high, low}, grid).starts_with("weld: mesh 2 has triangles"));
+  // One layer of cells in common: its dual cells begin at its cells.
+  const std::string message = weld_error({block(8, 20), low}, grid);
+  CHECK(message.starts_with("weld: mesh 1 has triangles between the same cells as mesh 0"));
+  CHECK(message.ends_with(", 8) on; blocks must be disjoint"));
+}

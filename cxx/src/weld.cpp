@@ -76,7 +76,26 @@ std::uint64_t cell_of(const std::array<std::uint64_t, 3>& ids, const IdRange& ra
 struct PlacedTriangle {
   std::uint64_t cell;
   Triangle corners;
+  std::uint32_t mesh;
 };
+
+// Each dual cell is of one block alone. \pre sorted by cell
+void check_disjoint(const std::vector<PlacedTriangle>& triangles, const IdRange& range) {
+  const auto shared = std::adjacent_find(triangles.begin(), triangles.end(),
+                                         [](const PlacedTriangle& a, const PlacedTriangle& b) {
+                                           return a.cell == b.cell && a.mesh != b.mesh;
+                                         });
+  if (shared == triangles.end()) {
+    return;
+  }
+  const auto index = [](std::uint64_t node) { return std::to_string(std::int64_t(node) - 1); };
+  const std::uint64_t cell = shared->cell;
+  fail(std::next(shared)->mesh, "has triangles between the same cells as mesh " +
+                                    std::to_string(shared->mesh) + ", those from (" +
+                                    index(cell % range.row / 3) + ", " +
+                                    index(cell % range.layer / range.row) + ", " +
+                                    index(cell / range.layer) + ") on; blocks must be disjoint");
+}
 
 }  // namespace
 
@@ -110,8 +129,8 @@ Mesh weld_pointers(std::span<const Mesh* const> meshes, const Grid& grid) {
   result.positions.resize(result.edge_ids.size());
   std::vector<PlacedTriangle> triangles;
   std::vector<std::uint32_t> number;
-  for (const Mesh* part : meshes) {
-    const Mesh& mesh = *part;
+  for (std::size_t part = 0; part < meshes.size(); ++part) {
+    const Mesh& mesh = *meshes[part];
     if (!mesh.normals.empty()) {
       result.normals.resize(result.edge_ids.size());
     }
@@ -129,12 +148,15 @@ Mesh weld_pointers(std::span<const Mesh* const> meshes, const Grid& grid) {
     for (const Triangle& t : mesh.triangles) {
       const std::array<std::uint64_t, 3> ids{mesh.edge_ids[t[0]], mesh.edge_ids[t[1]],
                                              mesh.edge_ids[t[2]]};
-      triangles.push_back({cell_of(ids, range), {number[t[0]], number[t[1]], number[t[2]]}});
+      triangles.push_back({cell_of(ids, range),
+                           {number[t[0]], number[t[1]], number[t[2]]},
+                           static_cast<std::uint32_t>(part)});
     }
   }
   std::stable_sort(
       triangles.begin(), triangles.end(),
       [](const PlacedTriangle& a, const PlacedTriangle& b) { return a.cell < b.cell; });
+  check_disjoint(triangles, range);
   result.triangles.resize(triangles.size());
   std::transform(triangles.begin(), triangles.end(), result.triangles.begin(),
                  [](const PlacedTriangle& t) { return t.corners; });

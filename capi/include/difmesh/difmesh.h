@@ -208,7 +208,8 @@ typedef struct dif_mesh dif_mesh;
 
 /* Reconstructs the surface of a field: marching cubes on the grid of cell centres at 1/2, with the
  * vertices where `placement` puts them. The mesh is manifold and free of self-intersections for
- * every field, and ends on `open` and `periodic` sides only. An empty field gives an empty mesh.
+ * every field, and ends on `open`, `mirror` and `periodic` sides only. An empty field gives an empty
+ * mesh.
  * Errors: INVALID_ARGUMENT, INVALID_GRID, INVALID_VALUE, STRUCT, TOO_LARGE, OUT_OF_MEMORY, CANCELLED.
  * Cost: one pass over the field, then O(interfacial cells). Since 0.1. */
 DIF_API dif_status dif_reconstruct(const dif_field* field, const dif_options* options,
@@ -915,7 +916,9 @@ DIF_API dif_status dif_reconstruct_block(const dif_field* field, const dif_block
                                          const dif_grid* grid, const dif_options* options,
                                          dif_mesh** mesh);
 /* Joins meshes of disjoint blocks by edge ids: those of blocks that cover the grid give the mesh of
- * the whole field, bit for bit. Errors: INVALID_ARGUMENT, TOO_LARGE, OUT_OF_MEMORY. Since 0.1. */
+ * the whole field, bit for bit. Errors: INVALID_ARGUMENT (also for blocks that are not disjoint, such
+ * as one given twice: both meshes have triangles between the same cells), TOO_LARGE, OUT_OF_MEMORY.
+ * Since 0.1. */
 DIF_API dif_status dif_mesh_weld(const dif_mesh* const* meshes, int64_t count, const dif_grid* grid,
                                  dif_mesh** mesh);
 

@@ -15,7 +15,8 @@ namespace difmesh {
 /// for bit.
 /// \param grid the whole grid
 /// \throw Error invalid_argument if a mesh has vertices without edge_ids, an id is outside the grid,
-///   or only some meshes have normals; too_large beyond 2^32 - 1 vertices.
+///   only some meshes have normals, or blocks are not disjoint, for instance one given twice: two
+///   meshes have triangles between the same cells; too_large beyond 2^32 - 1 vertices.
 /// Cost: O(n log n) in the size of the meshes. Thread safety: pure function.
 [[nodiscard]] Mesh weld(std::span<const Mesh> meshes, const Grid& grid);
 /// The same for meshes that lie apart; none may be NULL.
