@@ -20,6 +20,11 @@ Message& message() noexcept {
   return text;
 }
 
+Call*& running_call() noexcept {
+  thread_local Call* call = nullptr;
+  return call;
+}
+
 void note_text(const char* what) noexcept {
   Message& text = message();
   std::size_t length = std::min(std::strlen(what), text.size() - 1);
@@ -65,6 +70,41 @@ dif_status status_of(ErrorCode code) noexcept {
 }
 
 }  // namespace
+
+Call::Call() noexcept
+    : at_entry_(FloatEnvironment::current()), at_return_(at_entry_), outer_(running_call()) {
+  FloatEnvironment::set_default();
+  running_call() = this;
+}
+
+Call::~Call() {
+  running_call() = outer_;
+  at_return_.set();
+}
+
+Call& Call::running() noexcept {
+  return *running_call();
+}
+
+bool Call::is_of_this_thread() const noexcept {
+  return running_call() == this;
+}
+
+CallersSettings::CallersSettings(Call& call) noexcept
+    : call_(call), ours_(FloatEnvironment::current()) {
+  if (call.is_of_this_thread()) {
+    call.at_return_.set();
+  } else {
+    call.at_entry_.set_without_flags();
+  }
+}
+
+CallersSettings::~CallersSettings() {
+  if (call_.is_of_this_thread()) {
+    call_.at_return_ = FloatEnvironment::current();
+  }
+  ours_.set();
+}
 
 void fail_argument(const std::string& message) {
   throw Error(ErrorCode::invalid_argument, message);

@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "difmesh/difmesh.h"
+#include "difmesh/float_environment.hpp"
 
 namespace difmesh::capi {
 
@@ -28,9 +29,53 @@ class Failure : public std::runtime_error {
 /// Notes the exception being handled as this thread's message. Allocates nothing.
 dif_status note_exception() noexcept;
 
+/// One call of an entry point: while it lives, the thread has the default floating-point settings.
+/// Calls nest, where callbacks call the library.
+class Call {
+ public:
+  Call() noexcept;
+  ~Call();
+  Call(const Call&) = delete;
+  Call& operator=(const Call&) = delete;
+
+  /// The innermost one of this thread. \pre there is one
+  [[nodiscard]] static Call& running() noexcept;
+
+ private:
+  friend class CallersSettings;
+  [[nodiscard]] bool is_of_this_thread() const noexcept;
+
+  const FloatEnvironment at_entry_;
+  FloatEnvironment at_return_;  ///< as at entry, but for what callbacks on this thread did
+  Call* outer_;
+};
+
+/// While it lives, around a callback, the thread has the caller's floating-point settings.
+class CallersSettings {
+ public:
+  explicit CallersSettings(Call& call) noexcept;
+  ~CallersSettings();
+  CallersSettings(const CallersSettings&) = delete;
+  CallersSettings& operator=(const CallersSettings&) = delete;
+
+ private:
+  Call& call_;
+  FloatEnvironment ours_;
+};
+
+/// A callback that finds the settings of the running call's caller. \pre outlived by the call
+template <class Callback>
+[[nodiscard]] auto with_callers_settings(Callback callback) {
+  return [callback, &call = Call::running()](auto... arguments) {
+    const CallersSettings settings(call);
+    return callback(arguments...);
+  };
+}
+
 /// Runs the body of an entry point.
 template <class Body>
 dif_status guarded(const Body& body) noexcept {
+  const Call call;
   try {
     body();
     return DIF_OK;

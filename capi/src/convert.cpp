@@ -101,7 +101,8 @@ Progress to_progress(dif_progress progress, void* user) {
   if (progress == nullptr) {
     return {};
   }
-  return [progress, user](double share_done) { return progress(user, share_done) == 0; };
+  return with_callers_settings(
+      [progress, user](double share_done) { return progress(user, share_done) == 0; });
 }
 
 Index3 to_index(const std::int64_t (&from)[3]) {

@@ -68,13 +68,14 @@ dif_status dif_distance_to_function(const dif_mesh* mesh, dif_function function,
       capi::fail_argument("argument 'function' is NULL");
     }
     capi::check_output(result, "distance");
-    const difmesh::SignedDistance signed_distance = [function, user](const Vec3& point) {
-      double value = 0.0;
-      if (function(user, 1, point.data(), &value) != 0) {
-        throw difmesh::Error(difmesh::ErrorCode::cancelled, "cancelled by the function");
-      }
-      return value;
-    };
+    const difmesh::SignedDistance signed_distance =
+        capi::with_callers_settings([function, user](const Vec3& point) {
+          double value = 0.0;
+          if (function(user, 1, point.data(), &value) != 0) {
+            throw difmesh::Error(difmesh::ErrorCode::cancelled, "cancelled by the function");
+          }
+          return value;
+        });
     hand_over(difmesh::distance(surface, signed_distance, to_options(options)), result, "distance");
   });
 }

@@ -16,23 +16,25 @@ using difmesh::ErrorCode;
 using difmesh::Vec3;
 
 difmesh::FunctionBatch to_function(dif_function f, void* user) {
-  return [f, user](std::span<const Vec3> points, std::span<double> values) {
+  return capi::with_callers_settings([f, user](std::span<const Vec3> points,
+                                               std::span<double> values) {
     if (f(user, static_cast<std::int64_t>(points.size()), points[0].data(), values.data()) != 0) {
       throw Error(ErrorCode::cancelled, "cancelled by the function");
     }
-  };
+  });
 }
 
 difmesh::GradientBatch to_gradient(dif_gradient gradient, void* user) {
   if (gradient == nullptr) {
     return {};
   }
-  return [gradient, user](std::span<const Vec3> points, std::span<Vec3> gradients) {
-    if (gradient(user, static_cast<std::int64_t>(points.size()), points[0].data(),
-                 gradients[0].data()) != 0) {
-      throw Error(ErrorCode::cancelled, "cancelled by the gradient");
-    }
-  };
+  return capi::with_callers_settings(
+      [gradient, user](std::span<const Vec3> points, std::span<Vec3> gradients) {
+        if (gradient(user, static_cast<std::int64_t>(points.size()), points[0].data(),
+                     gradients[0].data()) != 0) {
+          throw Error(ErrorCode::cancelled, "cancelled by the gradient");
+        }
+      });
 }
 
 difmesh::FractionsFromFunctionOptions to_options(const dif_function_options* options) {

@@ -6,6 +6,7 @@
 #include "block_field.hpp"
 #include "classify.hpp"
 #include "difmesh/error.hpp"
+#include "difmesh/float_environment.hpp"
 #include "difmesh/normals.hpp"
 #include "normal_stencil.hpp"
 #include "parallel.hpp"
@@ -74,6 +75,7 @@ void list_row(const BlockField& field, std::int64_t row, std::vector<Index3>& ce
 
 void cell_planes(const FieldView& field, const Grid& grid, std::span<const Index3> cells,
                  const Options& options, std::span<CellPlane> planes) {
+  const DefaultFloatEnvironment environment;
   if (cells.size() != planes.size()) {
     throw Error(ErrorCode::invalid_argument, "cell_planes: " + std::to_string(cells.size()) +
                                                  " cells but room for " +
@@ -97,6 +99,7 @@ void cell_planes(const FieldView& field, const Grid& grid, std::span<const Index
 }
 
 Array<Index3> interfacial_cells(const FieldView& field, const Grid& grid, const Options& options) {
+  const DefaultFloatEnvironment environment;
   const BlockField block = whole_field(field, grid, options);
   detail::Workers workers(options.threads);
   detail::Phases phases(workers, options.progress);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "difmesh/error.hpp"
+#include "difmesh/float_environment.hpp"
 #include "difmesh/fractions_from_mesh.hpp"
 #include "mesh_arrays.hpp"
 #include "parallel.hpp"
@@ -261,6 +262,7 @@ void check(const Mesh& mesh, const Grid& grid, const ConstrainedSmoothingOptions
 
 ConstrainedSmoothing smooth_within_fractions(const Mesh& mesh, const Grid& grid,
                                              const ConstrainedSmoothingOptions& options) {
+  const DefaultFloatEnvironment environment;
   check(mesh, grid, options);
   if (mesh.triangles.empty()) {
     return {mesh.positions, 0.0, 0, 0};

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "difmesh/error.hpp"
+#include "difmesh/float_environment.hpp"
 #include "mesh_arrays.hpp"
 #include "parallel.hpp"
 #include "vertex_neighbours.hpp"
@@ -46,6 +47,7 @@ void store(const PatchFit& fitted, std::size_t vertex, Curvature& result) {
 
 Curvature curvature(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                     const CurvatureOptions& options) {
+  const DefaultFloatEnvironment environment;
   check(positions, triangles, options);
   Workers workers(options.threads);
   Phases phases(workers, options.progress);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "difmesh/error.hpp"
+#include "difmesh/float_environment.hpp"
 #include "difmesh/smoothing.hpp"
 #include "mesh_arrays.hpp"
 #include "parallel.hpp"
@@ -227,6 +228,7 @@ void check(const std::string& caller, const CurvatureFlowOptions& options) {
 Array<Vec3> smooth_by_curvature_flow(std::span<const Vec3> positions,
                                      std::span<const Triangle> triangles,
                                      const CurvatureFlowOptions& options) {
+  const DefaultFloatEnvironment environment;
   const std::string caller = "smooth_by_curvature_flow";
   check(caller, options);
   check_mesh_arrays(caller, positions, triangles);

@@ -10,6 +10,7 @@
 #include "cell_quadrature.hpp"
 #include "corner_lattice.hpp"
 #include "difmesh/error.hpp"
+#include "difmesh/float_environment.hpp"
 #include "first_error.hpp"
 #include "parallel.hpp"
 #include "position_text.hpp"
@@ -158,6 +159,7 @@ void fill_report(FractionsFromFunctionReport& report, const detail::Screening& s
 
 FractionsFromFunction fractions_from_function(const Grid& grid, const FunctionBatch& f,
                                               const FractionsFromFunctionOptions& options) {
+  const DefaultFloatEnvironment environment;
   return detail::fractions_with_known_cells(grid, f, options, {});
 }
 

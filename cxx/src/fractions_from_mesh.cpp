@@ -12,6 +12,7 @@
 #include "cell_clipper.hpp"
 #include "column_sums.hpp"
 #include "difmesh/error.hpp"
+#include "difmesh/float_environment.hpp"
 #include "grid_mesh.hpp"
 #include "parallel.hpp"
 #include "position_text.hpp"
@@ -209,6 +210,7 @@ void fill_report(const RowFacts& facts, const Grid& grid, FractionsFromMeshRepor
 FractionsFromMesh fractions_from_mesh(const Grid& grid, std::span<const Vec3> positions,
                                       std::span<const Triangle> triangles,
                                       const FractionsFromMeshOptions& options) {
+  const DefaultFloatEnvironment environment;
   Stopwatch whole;
   Stopwatch phase;
   check_options(options);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "difmesh/float_environment.hpp"
 namespace difmesh::detail {
 namespace {
 
@@ -72,7 +73,10 @@ Vec3 GenusModel::gradient(const Vec3& u) const {
 }
 
 double GenusModel::distance(const Vec3& u) const {
-  std::call_once(once_, [&] { cloud_ = std::make_unique<const PointCloud>(make_cloud()); });
+  std::call_once(once_, [&] {
+    const DefaultFloatEnvironment environment;
+    cloud_ = std::make_unique<const PointCloud>(make_cloud());
+  });
   constexpr double kSize = 3.6;
   const Vec3 p = plus({}, 1.0 / scale_, u);
   const double far = std::abs(cloud_->nearest(GenusSurface(), p, kSize).offset);

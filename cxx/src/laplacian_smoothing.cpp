@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "difmesh/error.hpp"
+#include "difmesh/float_environment.hpp"
 #include "difmesh/smoothing.hpp"
 #include "mesh_arrays.hpp"
 #include "parallel.hpp"
@@ -76,6 +77,7 @@ class Umbrella {
 
 Array<Vec3> smooth_laplacian(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                              const LaplacianOptions& options) {
+  const DefaultFloatEnvironment environment;
   const std::string caller = "smooth_laplacian";
   check_steps(caller, options.steps);
   check_boundary(caller, options.boundary);
@@ -93,6 +95,7 @@ Array<Vec3> smooth_laplacian(std::span<const Vec3> positions, std::span<const Tr
 
 Array<Vec3> smooth_taubin(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                           const TaubinOptions& options) {
+  const DefaultFloatEnvironment environment;
   const std::string caller = "smooth_taubin";
   check_steps(caller, options.steps);
   check_boundary(caller, options.boundary);

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "difmesh/float_environment.hpp"
 #include "mesh_arrays.hpp"
 
 namespace difmesh {
@@ -240,6 +241,7 @@ class Topology {
 }  // namespace
 
 Measure measure(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
+  const DefaultFloatEnvironment environment;
   detail::check_mesh_arrays("measure", positions, triangles);
   Measure m;
   m.vertices = static_cast<std::int64_t>(positions.size());

@@ -9,6 +9,7 @@
 
 #include "block_field.hpp"
 #include "difmesh/error.hpp"
+#include "difmesh/float_environment.hpp"
 #include "first_error.hpp"
 #include "parallel.hpp"
 #include "position_text.hpp"
@@ -233,6 +234,7 @@ BlockField checked_field(const FieldView& field, const MollifyOptions& options) 
 }  // namespace
 
 Array<double> mollify(const FieldView& field, const MollifyOptions& options) {
+  const DefaultFloatEnvironment environment;
   const BlockField block = checked_field(field, options);
   const Kernel kernel(options.radius);
   Workers workers(options.threads);

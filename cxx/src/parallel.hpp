@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "difmesh/error.hpp"
+#include "difmesh/float_environment.hpp"
 #include "difmesh/options.hpp"
 
 #ifdef DIFMESH_WITH_TBB
@@ -49,7 +51,16 @@ class Workers {
     };
 #ifdef DIFMESH_WITH_TBB
     if (threads_ > 1 && portions > 1) {
-      arena_.execute([&] { tbb::parallel_for(std::int64_t{0}, portions, run); });
+      arena_.execute([&] {
+        tbb::parallel_for(std::int64_t{0}, portions, [&](std::int64_t portion) {
+          // oneTBB's threads have the settings of whoever made them or the arena.
+          std::optional<DefaultFloatEnvironment> environment;
+          if (!FloatEnvironment::is_default()) {
+            environment.emplace();
+          }
+          run(portion);
+        });
+      });
       return;
     }
 #endif

@@ -6,6 +6,7 @@
 #include "block_field.hpp"
 #include "classify.hpp"
 #include "difmesh/error.hpp"
+#include "difmesh/float_environment.hpp"
 #include "dual_grid.hpp"
 #include "parallel.hpp"
 #include "plane_table.hpp"
@@ -74,12 +75,14 @@ Reconstruction run(const BlockField& field, const Options& options) {
 }  // namespace
 
 Reconstruction reconstruct(const FieldView& field, const Grid& grid, const Options& options) {
+  const DefaultFloatEnvironment environment;
   const Block whole{{0, 0, 0}, grid.dims, {0, 0, 0}, {0, 0, 0}};
   return run(detail::make_block_field(field, whole, grid, options), options);
 }
 
 Reconstruction reconstruct_block(const FieldView& field, const Block& block, const Grid& grid,
                                  const Options& options) {
+  const DefaultFloatEnvironment environment;
   Options named = options;
   named.edge_ids = true;
   return run(detail::make_block_field(field, block, grid, named), named);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "difmesh/error.hpp"
+#include "difmesh/float_environment.hpp"
 #include "genus_shape.hpp"
 #include "golf_ball.hpp"
 #include "position_text.hpp"
@@ -146,16 +147,19 @@ Shape::Shape(const ShapeOptions& options, std::shared_ptr<const detail::ShapeBod
     : options_(options), body_(std::move(body)) {}
 
 void Shape::values(std::span<const Vec3> points, std::span<double> values) const {
+  const DefaultFloatEnvironment environment;
   check_sizes(points, values);
   body_->values(points, values);
 }
 
 void Shape::gradients(std::span<const Vec3> points, std::span<Vec3> gradients) const {
+  const DefaultFloatEnvironment environment;
   check_sizes(points, gradients);
   body_->gradients(points, gradients);
 }
 
 void Shape::distances(std::span<const Vec3> points, std::span<double> distances) const {
+  const DefaultFloatEnvironment environment;
   check_sizes(points, distances);
   body_->distances(points, distances);
 }
@@ -179,10 +183,12 @@ double Shape::distance(const Vec3& point) const {
 }
 
 Bounds Shape::bounds() const {
+  const DefaultFloatEnvironment environment;
   return body_->bounds();
 }
 
 std::optional<double> Shape::volume() const {
+  const DefaultFloatEnvironment environment;
   return body_->volume();
 }
 
@@ -199,6 +205,7 @@ GradientBatch Shape::gradient_function() const {
 }
 
 Shape make_shape(const ShapeOptions& options) {
+  const DefaultFloatEnvironment environment;
   check_finite("centre", options.centre);
   check_finite("rotation_degrees", options.rotation_degrees);
   return {options, make_body(options)};
@@ -206,6 +213,7 @@ Shape make_shape(const ShapeOptions& options) {
 
 FractionsFromFunction fractions_from_shape(const Grid& grid, const Shape& shape,
                                            const FractionsFromFunctionOptions& options) {
+  const DefaultFloatEnvironment environment;
   detail::KnownFraction known;
   if (shape.body_->knows_fractions()) {
     known = [&body = *shape.body_](const Vec3& low, const Vec3& size) {

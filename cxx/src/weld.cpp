@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "difmesh/error.hpp"
+#include "difmesh/float_environment.hpp"
 
 namespace difmesh {
 namespace {
@@ -109,6 +110,7 @@ Mesh weld(std::span<const Mesh> meshes, const Grid& grid) {
 }
 
 Mesh weld_pointers(std::span<const Mesh* const> meshes, const Grid& grid) {
+  const DefaultFloatEnvironment environment;
   validate(grid);
   const IdRange range = id_range(grid);
   check(meshes, range);

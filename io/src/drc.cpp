@@ -8,6 +8,7 @@
 
 #include "atomic_file.hpp"
 #include "difmesh/error.hpp"
+#include "difmesh/float_environment.hpp"
 #include "difmesh/io/draco_file.hpp"
 #include "draco_codec.hpp"
 #include "input_file.hpp"
@@ -73,6 +74,7 @@ Array<Vec3> vectors_of(const std::filesystem::path& path, const DecodedAttribute
 
 MeshFileReport write_drc(const std::filesystem::path& path, const Mesh& mesh,
                          const WriteDrcOptions& options) {
+  const DefaultFloatEnvironment environment;
   check_mesh(path, mesh);
   check_scalars(path, mesh, options.scalars);
   check_draco(path, options.draco);
@@ -155,6 +157,7 @@ Array<std::uint64_t> joined_digits(const std::filesystem::path& path, const Arra
 }  // namespace detail
 
 ScalarMesh read_drc(const std::filesystem::path& path) {
+  const DefaultFloatEnvironment environment;
   return naming_file(path, [&] {
     const InputFile file(path);
     const Array<char> bytes = file.read_text(0, file.size());

@@ -5,6 +5,7 @@
 
 #include "atomic_file.hpp"
 #include "difmesh/error.hpp"
+#include "difmesh/float_environment.hpp"
 #include "elements.hpp"
 #include "input_file.hpp"
 #include "memory.hpp"
@@ -92,6 +93,7 @@ Grid FieldFile::grid() const {
 }
 
 FieldFile read_field(const std::filesystem::path& path, const ReadFieldOptions& options) {
+  const DefaultFloatEnvironment environment;
   detail::check_options(path, options);
   const std::string extension = detail::extension_of(path);
   if (extension == ".npy") {
@@ -110,6 +112,7 @@ FieldFile read_field(const std::filesystem::path& path, const ReadFieldOptions& 
 
 FieldFile read_field(const std::filesystem::path& path, const RawLayout& layout,
                      const ReadFieldOptions& options) {
+  const DefaultFloatEnvironment environment;
   for (const std::int64_t dim : layout.dims) {
     if (dim < 1 || layout.offset < 0) {
       throw Error(ErrorCode::invalid_argument,
@@ -124,6 +127,7 @@ FieldFile read_field(const std::filesystem::path& path, const RawLayout& layout,
 
 void write_field(const std::filesystem::path& path, const FieldView& field,
                  const std::optional<Grid>& grid, const WriteFieldOptions& options) {
+  const DefaultFloatEnvironment environment;
   check_field(path, field, grid, options);
   WriteFieldOptions chosen = options;
   chosen.type = options.type.value_or(field.type);

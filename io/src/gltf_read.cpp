@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "difmesh/float_environment.hpp"
 #include "difmesh/io/gltf_file.hpp"
 #include "gltf_primitive.hpp"
 #include "gltf_source.hpp"
@@ -278,6 +279,7 @@ ScalarMesh decode_gltf(const std::filesystem::path& path, Array<char> bytes) {
 }  // namespace detail
 
 ScalarMesh read_gltf(const std::filesystem::path& path, const ReadMeshOptions& options) {
+  const DefaultFloatEnvironment environment;
   return detail::naming_file(path, [&] {
     Array<char> bytes;
     {

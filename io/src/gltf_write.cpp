@@ -16,6 +16,7 @@
 #include "atomic_file.hpp"
 #include "base64.hpp"
 #include "difmesh/error.hpp"
+#include "difmesh/float_environment.hpp"
 #include "gltf_bytes.hpp"
 #include "gltf_document.hpp"
 #include "mesh_check.hpp"
@@ -161,6 +162,7 @@ MeshFileReport write_gltf_as(const std::filesystem::path& path, const Mesh& mesh
 
 MeshFileReport write_gltf(const std::filesystem::path& path, const Mesh& mesh,
                           const WriteGltfOptions& options) {
+  const DefaultFloatEnvironment environment;
   if (options.binary) {
     return detail::write_gltf_as(path, mesh, options, *options.binary);
   }
@@ -174,6 +176,7 @@ MeshFileReport write_gltf(const std::filesystem::path& path, const Mesh& mesh,
 
 std::vector<char> encode_glb(const Mesh& mesh, const WriteGltfOptions& options,
                              MeshFileReport* report) {
+  const DefaultFloatEnvironment environment;
   const std::filesystem::path path = "glb in memory";
   const detail::GltfDocument document = detail::describe(path, mesh, options);
   std::vector<char> bytes;

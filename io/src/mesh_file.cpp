@@ -10,6 +10,7 @@
 
 #include "atomic_file.hpp"
 #include "difmesh/error.hpp"
+#include "difmesh/float_environment.hpp"
 #include "difmesh/io/draco_file.hpp"
 #include "difmesh/io/gltf_file.hpp"
 #include "gltf_write.hpp"
@@ -109,6 +110,7 @@ ScalarMesh read_tables(const std::filesystem::path& path, MeshFormat format) {
 
 MeshFileReport write_mesh(const std::filesystem::path& path, const Mesh& mesh,
                           const WriteMeshOptions& options) {
+  const DefaultFloatEnvironment environment;
   const std::optional<MeshFormat> format = options.format ? options.format : mesh_format_of(path);
   if (!format) {
     detail::fail_write(ErrorCode::invalid_argument, path,
@@ -135,6 +137,7 @@ Mesh read_mesh(const std::filesystem::path& path, const ReadMeshOptions& options
 }
 
 ScalarMesh read_scalar_mesh(const std::filesystem::path& path, const ReadMeshOptions& options) {
+  const DefaultFloatEnvironment environment;
   const std::optional<MeshFormat> format = mesh_format_of(path);
   if (!format) {
     detail::fail_format(path, "unknown extension '" + detail::extension_of(path) + "'; " + kKnown);

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "difmesh/error.hpp"
+#include "difmesh/float_environment.hpp"
 #include "distance_field.hpp"
 #include "parallel.hpp"
 #include "position_text.hpp"
@@ -54,6 +55,7 @@ double largest(const Distance& distance) {
 
 Distance distance(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                   const SignedDistance& shape, const DistanceOptions& options) {
+  const DefaultFloatEnvironment environment;
   check_options(options);
   SurfaceView surface{"mesh", positions, triangles};
   check_surface(surface);
@@ -74,6 +76,7 @@ MeshDistance distance(std::span<const Vec3> positions, std::span<const Triangle>
                       std::span<const Vec3> reference_positions,
                       std::span<const Triangle> reference_triangles,
                       const DistanceOptions& options) {
+  const DefaultFloatEnvironment environment;
   check_options(options);
   SurfaceView mesh{"mesh", positions, triangles};
   SurfaceView reference{"reference", reference_positions, reference_triangles};

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "difmesh/error.hpp"
+#include "difmesh/float_environment.hpp"
 #include "first_error.hpp"
 #include "parallel.hpp"
 #include "reference_surface.hpp"
@@ -32,6 +33,7 @@ void check_points(std::span<const Vec3> points) {
 
 PointDistances point_distances(std::span<const Vec3> points, const Mesh& reference,
                                const DistanceOptions& options) {
+  const DefaultFloatEnvironment environment;
   check_points(points);
   SurfaceView surface{"reference", reference.positions, reference.triangles};
   check_surface(surface);

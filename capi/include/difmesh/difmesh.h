@@ -49,6 +49,12 @@
  *   threads may call any functions at once, also with the same handles, as long as none of them
  *   changes or frees the handle. `threads` in options: at most so many, 0 for as many as the machine
  *   has; no result depends on it, to the last bit.
+ * Floating point. The library computes with the default settings, whatever those of the caller:
+ *   round to nearest, no traps, subnormal numbers as they are (programs compiled with -ffast-math
+ *   take them for 0). So no result depends on them, and no trap that the caller has set, say by
+ *   feenableexcept() or gfortran's -ffpe-trap, is sprung in here. On return, from errors too, the
+ *   settings and raised flags are what they were. Callbacks find the settings of the caller, on
+ *   whatever thread they run; what they change or raise on the calling thread stays.
  * Cost, memory and sources of the methods are those of the C++ headers of the same names, and of
  *   docs/method.md; here is what differs.
  */

@@ -6,6 +6,7 @@
 #include "difmesh/curvature.hpp"
 #include "difmesh/error.hpp"
 #include "difmesh/field_view.hpp"
+#include "difmesh/float_environment.hpp"
 #include "difmesh/fractions_from_function.hpp"
 #include "difmesh/fractions_from_mesh.hpp"
 #include "difmesh/grid.hpp"
