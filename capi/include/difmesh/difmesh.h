@@ -55,6 +55,8 @@
  *   feenableexcept() or gfortran's -ffpe-trap, is sprung in here. On return, from errors too, the
  *   settings and raised flags are what they were. Callbacks find the settings of the caller, on
  *   whatever thread they run; what they change or raise on the calling thread stays.
+ * Unloading. Once loaded, the library stays until the program ends: dlclose() leaves it where it
+ *   is, for its threads may be asleep in it.
  * Cost, memory and sources of the methods are those of the C++ headers of the same names, and of
  *   docs/method.md; here is what differs.
  */
