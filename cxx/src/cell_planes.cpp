@@ -104,7 +104,9 @@ Array<Index3> interfacial_cells(const FieldView& field, const Grid& grid, const 
   detail::Workers workers(options.threads);
   detail::Phases phases(workers, options.progress);
   Report report;
-  static_cast<void>(detail::classify(block, options.overshoot_bound, 0.5, phases, report));
+  detail::LayerPlanes no_planes;
+  static_cast<void>(
+      detail::classify(block, {options.overshoot_bound, no_planes}, 0.5, phases, report));
   const std::int64_t rows = grid.dims[1] * grid.dims[2];
   const std::int64_t grain = std::max<std::int64_t>(1, kCellsPerRowPortion / grid.dims[0]);
   std::vector<std::vector<Index3>> portions(static_cast<std::size_t>((rows + grain - 1) / grain));

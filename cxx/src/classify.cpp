@@ -330,7 +330,7 @@ void step(Index3& start, const Index3& dims) {
 
 }  // namespace
 
-ClassifiedNodes classify(const BlockField& field, double overshoot_bound, double weight,
+ClassifiedNodes classify(const BlockField& field, const FieldLimits& limits, double weight,
                          Phases& phases, Report& report) {
   Index3 first;
   Index3 last;
@@ -350,7 +350,7 @@ ClassifiedNodes classify(const BlockField& field, double overshoot_bound, double
   std::vector<Statistics> portions(static_cast<std::size_t>((rows + grain - 1) / grain));
   with_scalar(field.view.type, [&](auto type) {
     using T = decltype(type);
-    const RowClassifier<T> classifier(field.purity_tolerance, overshoot_bound);
+    const RowClassifier<T> classifier(field.purity_tolerance, limits.overshoot_bound);
     phases.run(weight, rows, grain, [&](std::int64_t begin, std::int64_t end) {
       Statistics& statistics = portions[static_cast<std::size_t>(begin / grain)];
       Index3 start{0, begin % dims[1], begin / dims[1]};
@@ -359,8 +359,12 @@ ClassifiedNodes classify(const BlockField& field, double overshoot_bound, double
         const std::int64_t k = start[2] - field.block.ghost_low[2];
         const bool in_block =
             j >= 0 && j < field.block.dims[1] && k >= 0 && k < field.block.dims[2];
+        const std::int64_t interfacial_before = statistics.interfacial;
         classify_row<T>(field, classifier, start, in_block ? &nodes : nullptr, statistics);
         if (in_block) {
+          if (limits.layer_planes.is_limited() && limits.layer_planes.has_row(j, k)) {
+            limits.layer_planes.add(statistics.interfacial - interfacial_before);
+          }
           beyond.set_ends(j + 1, k + 1);
           nodes.summarise_row(j + 1, k + 1);
           result.row_ends[static_cast<std::size_t>(k * field.block.dims[1] + j)] = interfacial_ends(
@@ -377,7 +381,7 @@ ClassifiedNodes classify(const BlockField& field, double overshoot_bound, double
     all.add(portion);
   }
   if (all.first_bad >= 0) {
-    throw_bad_cell(field, all.first_bad, overshoot_bound);
+    throw_bad_cell(field, all.first_bad, limits.overshoot_bound);
   }
   beyond.fill();
   report.cells = field.block.dims[0] * field.block.dims[1] * field.block.dims[2];

@@ -3,6 +3,7 @@
 
 #include "block_field.hpp"
 #include "difmesh/reconstruct.hpp"
+#include "memory_plan.hpp"
 #include "node_bits.hpp"
 #include "parallel.hpp"
 
@@ -23,10 +24,16 @@ template <class T>
                                    (field.is_interfacial(fraction_of(last)) ? 2 : 0));
 }
 
+/// What the field may hold.
+struct FieldLimits {
+  double overshoot_bound;
+  LayerPlanes& layer_planes;
+};
+
 /// Node bits of the block, with the nodes beyond the sides of the domain taken from the cells they
 /// stand for. Fills the report's facts about the field. \throw Error invalid_value naming the first
-/// bad cell in the order z, y, x
-[[nodiscard]] ClassifiedNodes classify(const BlockField& field, double overshoot_bound,
+/// bad cell in the order z, y, x; OutOfMemory by the limits
+[[nodiscard]] ClassifiedNodes classify(const BlockField& field, const FieldLimits& limits,
                                        double weight, Phases& phases, Report& report);
 
 }  // namespace difmesh::detail

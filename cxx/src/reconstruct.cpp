@@ -1,13 +1,16 @@
 #include "difmesh/reconstruct.hpp"
 
 #include <limits>
+#include <new>
 #include <string>
 
 #include "block_field.hpp"
 #include "classify.hpp"
 #include "difmesh/error.hpp"
 #include "difmesh/float_environment.hpp"
+#include "difmesh/out_of_memory.hpp"
 #include "dual_grid.hpp"
+#include "memory_plan.hpp"
 #include "parallel.hpp"
 #include "plane_table.hpp"
 #include "stopwatch.hpp"
@@ -29,7 +32,8 @@ double middle_level(const BlockField& field) {
                                   0.5 * static_cast<double>(field.block.dims[2]));
 }
 
-Reconstruction run(const BlockField& field, const Options& options) {
+// \param now what is about to be made
+Reconstruction run_phases(const BlockField& field, const Options& options, const char*& now) {
   Reconstruction result;
   Report& report = result.report;
   Mesh& mesh = result.mesh;
@@ -38,12 +42,15 @@ Reconstruction run(const BlockField& field, const Options& options) {
   detail::Workers workers(options.threads);
   Phases phases(workers, options.progress);
 
+  const bool with_planes = options.placement == Placement::plic;
+  detail::LayerPlanes layer_planes(field, with_planes);
+  now = "the inside bits";
   detail::ClassifiedNodes classified =
-      detail::classify(field, options.overshoot_bound, 0.1, phases, report);
+      detail::classify(field, {options.overshoot_bound, layer_planes}, 0.1, phases, report);
   DualGrid grid(field, std::move(classified.nodes));
   report.seconds.classify = watch.lap();
 
-  const bool with_planes = options.placement == Placement::plic;
+  now = "the planes";
   if (with_planes || options.vertex_normals) {
     grid.set_planes(
         detail::make_planes(field, grid.nodes(), classified.row_ends, options, phases, report),
@@ -51,6 +58,7 @@ Reconstruction run(const BlockField& field, const Options& options) {
   }
   report.seconds.normals = watch.lap();
 
+  now = "the counts";
   const detail::MeshCounts counts = detail::count_mesh(grid, phases);
   const std::int64_t vertices = counts.vertex_start.back();
   if (vertices > std::numeric_limits<std::uint32_t>::max()) {
@@ -59,9 +67,11 @@ Reconstruction run(const BlockField& field, const Options& options) {
   }
   report.seconds.count = watch.lap();
 
+  now = "the vertices";
   detail::place_vertices(grid, options, counts.vertex_start, phases, mesh, report);
   watch.lap();  // of planes and of vertices, which take turns: they are in the report
 
+  now = "the triangles";
   detail::connect(grid, counts, phases, mesh);
   if (report.closed) {
     report.enclosed_volume = detail::enclosed_volume(mesh, middle_level(field), phases);
@@ -70,6 +80,18 @@ Reconstruction run(const BlockField& field, const Options& options) {
   report.seconds.total = whole.lap();
   phases.finish();
   return result;
+}
+
+Reconstruction run(const BlockField& field, const Options& options) {
+  detail::check_memory(field);
+  const char* now = "the work";
+  try {
+    return run_phases(field, options, now);
+  } catch (const OutOfMemory&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    detail::fail_memory(field, now);
+  }
 }
 
 }  // namespace

@@ -3,11 +3,14 @@
 #include <doctest/doctest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <new>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,10 +20,11 @@ namespace {
 
 std::atomic<std::int64_t> live_allocations = 0;
 std::atomic<std::int64_t> allocations = 0;
-std::atomic<std::int64_t> failing_allocation = -1;  // number of the one that fails
+std::atomic<std::int64_t> failing_allocation = -1;       // number of the one that fails
+std::atomic<std::size_t> largest_allocation = SIZE_MAX;  // larger ones fail
 
 void* allocate(std::size_t bytes, std::size_t alignment) {
-  if (allocations++ == failing_allocation) {
+  if (allocations++ == failing_allocation || bytes > largest_allocation) {
     throw std::bad_alloc();
   }
   void* memory =
@@ -290,5 +294,83 @@ TEST_CASE("cancelling at any progress call is a status and leaks nothing") {
       dif_distance back = test::prepared(dif_distance_init);
       return dif_distance_to_mesh(f.sphere.get(), f.sphere.get(), &options, &there, &back);
     });
+  }
+}
+
+namespace {
+
+// A field of one number, that takes no memory itself.
+struct ConstantField {
+  double value = 0.5;
+  std::int64_t calls = 0;
+  double share_done = 0.0;
+
+  dif_status reconstruct(const difmesh::Index3& dims) {
+    dif_field field = test::c_field(&value, DIF_FLOAT64, dims);
+    std::fill_n(field.strides, 3, 0);
+    dif_options options = test::prepared(dif_options_init);
+    options.progress_user = this;
+    options.progress = [](void* user, double share) {
+      auto& self = *static_cast<ConstantField*>(user);
+      ++self.calls;
+      self.share_done = share;
+      return std::int32_t{0};
+    };
+    dif_mesh* mesh = nullptr;
+    const dif_status status = dif_reconstruct(&field, &options, &mesh);
+    dif_mesh_free(mesh);
+    return status;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("what is too large for the memory is told before it is read") {
+  ConstantField rows;
+  largest_allocation = 100'000'000;
+  const dif_status of_rows = rows.reconstruct({1, 4000, 4000});
+  largest_allocation = SIZE_MAX;
+  CHECK(of_rows == DIF_ERROR_OUT_OF_MEMORY);
+  // 4002 x 4002 rows: 8 bytes of bits and 14 more.
+  CHECK(std::string(dif_last_message()) ==
+        "out of memory: 1 x 4000 x 4000 cells need 0.352 GB for one bit each and some bytes per "
+        "row");
+  CHECK(rows.calls == 0);
+
+  // The planes of a layer of interfacial cells along open sides: known as soon as too many are seen.
+  ConstantField layer;
+  largest_allocation = 70'000'000;
+  const dif_status of_layer = layer.reconstruct({4000, 4000, 1});
+  const std::string message = dif_last_message();
+  layer.value = 0.0;
+  const dif_status of_empty_layer = layer.reconstruct({4000, 4000, 1});
+  largest_allocation = SIZE_MAX;
+  CHECK(of_layer == DIF_ERROR_OUT_OF_MEMORY);
+  CHECK(message ==
+        "out of memory: 4000 x 4000 x 1 cells need 0.0912 GB for planes of interfacial ones along "
+        "open sides, or more");
+  CHECK(of_empty_layer == DIF_OK);
+}
+
+TEST_CASE("a reconstruction without memory tells what for") {
+  const Fixture f;
+  const dif_options options = test::prepared(dif_options_init);
+  std::set<std::string> messages;
+  for (std::int64_t n = 0; n < 1000; ++n) {
+    failing_allocation = n;
+    allocations = 0;
+    const dif_status status = f.reconstruct(&options);
+    failing_allocation = -1;
+    if (status == DIF_OK) {
+      break;
+    }
+    messages.insert(dif_last_message());
+  }
+  const auto of = [](const std::string& what) {
+    return "out of memory for " + what + " of 5 x 4 x 3 cells";
+  };
+  for (const char* const what :
+       {"the inside bits", "the planes", "the counts", "the vertices", "the triangles"}) {
+    CHECK(messages.count(of(what)) == 1);
   }
 }

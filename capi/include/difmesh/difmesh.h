@@ -217,7 +217,7 @@ typedef struct dif_mesh dif_mesh;
 /* Reconstructs the surface of a field: marching cubes on the grid of cell centres at 1/2, with the
  * vertices where `placement` puts them. The mesh is manifold and free of self-intersections for
  * every field, and ends on `open`, `mirror` and `periodic` sides only. An empty field gives an empty
- * mesh.
+ * mesh. OUT_OF_MEMORY comes before the pass over the field where that is known already.
  * Errors: INVALID_ARGUMENT, INVALID_GRID, INVALID_VALUE, STRUCT, TOO_LARGE, OUT_OF_MEMORY, CANCELLED.
  * Cost: one pass over the field, then O(interfacial cells). Since 0.1. */
 DIF_API dif_status dif_reconstruct(const dif_field* field, const dif_options* options,

@@ -21,7 +21,7 @@ enum class ErrorCode : int {
 };
 
 /// Thrown by every function of the library that can fail. `what()` names the cell, file or
-/// argument. std::bad_alloc passes through unchanged.
+/// argument. std::bad_alloc passes through, or comes as OutOfMemory.
 class Error : public std::runtime_error {
  public:
   Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}

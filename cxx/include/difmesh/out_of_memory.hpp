@@ -1,6 +1,6 @@
 #pragma once
 /// \file out_of_memory.hpp
-/// What readers of files throw in place of std::bad_alloc.
+/// What is thrown in place of std::bad_alloc where it is known what the memory was for.
 
 #include <memory>
 #include <new>
@@ -8,7 +8,8 @@
 
 namespace difmesh {
 
-/// `what()` names the file and its size, or how many bytes were asked for.
+/// `what()` names the file and its size, or the cells of the field, and mostly how many
+/// bytes were asked for.
 class OutOfMemory : public std::bad_alloc {
  public:
   explicit OutOfMemory(const std::string& message)

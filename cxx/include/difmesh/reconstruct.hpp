@@ -68,7 +68,7 @@ struct Block {
 ///   loops are equal but for one period, added to the coordinate.
 /// \param field cells in memory; dims must equal grid.dims
 /// \throw Error invalid_argument (field or options), invalid_grid, invalid_value (first bad cell in
-///   the order z, y, x is named), too_large, cancelled
+///   the order z, y, x is named), too_large, cancelled; OutOfMemory, early where that is known
 /// Cost: one pass over the field, then O(interfacial cells). Memory beyond the output: two bits per
 /// cell and O(interfacial cells). Thread safety: concurrent calls are safe.
 /// Source: E19, as docs/method.md lays out.
