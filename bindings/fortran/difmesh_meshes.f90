@@ -83,7 +83,7 @@ contains
     call take(mesh, made, status)
   end subroutine
 
-  ! Joins the meshes of disjoint blocks of a grid. Experimental.
+  ! Joins the meshes of disjoint blocks of a grid; others are refused. Experimental.
   subroutine weld(mesh, parts, grid, status, message)
     class(dif_mesh), intent(inout) :: mesh
     type(dif_mesh), intent(in) :: parts(:)

@@ -168,7 +168,7 @@ def weld(
     spacing: Triple = 1.0,
     origin: Triple = 0.0,
 ) -> Mesh:
-    """Joins meshes of disjoint blocks. Experimental.
+    """Joins meshes of disjoint blocks, others are refused. Experimental.
 
     Those of blocks that cover the grid give the mesh of the whole field, bit for bit.
     """
