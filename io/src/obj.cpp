@@ -1,43 +1,75 @@
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "difmesh/error.hpp"
+#include "mesh_check.hpp"
 #include "mesh_formats.hpp"
+#include "polygons.hpp"
 #include "scanner.hpp"
 #include "text.hpp"
+#include "warnings.hpp"
 
 namespace difmesh::detail {
 namespace {
 
-/// Reads the v, vn and f lines of Wavefront's OBJ; any other line is none of a mesh's business.
+/// First words of lines, beside v, vn and f: what a triangle mesh has no place for.
+constexpr std::array<std::string_view, 36> kSkipped{
+    "vt",     "vp",   "g",     "o",     "s",          "mg",        "usemtl",   "mtllib",   "usemap",
+    "maplib", "l",    "p",     "deg",   "bmat",       "step",      "cstype",   "parm",     "trim",
+    "hole",   "scrv", "sp",    "end",   "con",        "bevel",     "c_interp", "d_interp", "lod",
+    "call",   "csh",  "ctech", "stech", "shadow_obj", "trace_obj", "bsp",      "bzp",      "cdc"};
+/// Curves and surfaces that are no polygons.
+constexpr std::array<std::string_view, 3> kFreeForm{"curv", "curv2", "surf"};
+
+template <std::size_t N>
+bool is_one_of(std::string_view word, const std::array<std::string_view, N>& words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+/// Reads the v, vn and f lines of Wavefront's OBJ.
 class ObjReader {
  public:
   ObjReader(const std::filesystem::path& path, std::string_view text)
-      : path_(path), lines_(path, text, {.comment = '#', .continued = true}) {}
+      : path_(path), text_(text), lines_(path, text, {.comment = '#', .continued = true}) {}
 
-  Mesh read() {
+  ScalarMesh read() {
     while (lines_.next_line()) {
       const std::string_view keyword = lines_.word();
       if (keyword == "v") {
-        mesh_.positions.push_back(vector("a coordinate"));
+        vertex();
       } else if (keyword == "vn") {
         mesh_.normals.push_back(vector("a component of a normal"));
-      } else if (keyword == "f") {
+      } else if (keyword == "f" || keyword == "fo") {
         face();
+      } else {
+        skip(keyword);
       }
     }
-    finish();
-    return std::move(mesh_);
+    check_words();
+    check_corners();
+    return finish();
   }
 
  private:
+  /// Numbers need not be finite here, as the surface may do without them.
   Vec3 vector(const char* what) {
-    const double x = lines_.number(what);
-    const double y = lines_.number(what);
-    return {x, y, lines_.number(what)};
+    const double x = lines_.any_number(what);
+    const double y = lines_.any_number(what);
+    return {x, y, lines_.any_number(what)};
+  }
+
+  /// A weight, which counts for curves only, or a colour may follow.
+  void vertex() {
+    const Vec3 position = vector("a coordinate");
+    if (!std::isfinite(position[0]) || !std::isfinite(position[1]) || !std::isfinite(position[2])) {
+      not_finite_.push_back({mesh_.positions.size(), lines_.line_number()});
+    }
+    mesh_.positions.push_back(position);
   }
 
   /// An index as OBJ counts: from 1 up, or from -1 down for the latest.
@@ -47,33 +79,66 @@ class ObjReader {
                                    : *number < 0 ? *number + static_cast<std::int64_t>(count)
                                                  : *number - 1;
     if (from_zero < 0 || from_zero >= kMostVertices) {
-      lines_.fail("a face refers to '" + std::string(word.substr(0, 40)) + "' of " +
-                  std::to_string(count) + " vertices or normals so far");
+      lines_.fail("a face refers to " + in_quotes(word) + " of " + std::to_string(count) +
+                  " vertices or normals so far");
     }
     return static_cast<std::uint32_t>(from_zero);
+  }
+
+  /// v, v/vt, v//vn or v/vt/vn, where vt and vn may be empty.
+  void corner(std::string_view word) {
+    const std::size_t slash = std::min(word.find('/'), word.size());
+    corners_.push_back(index(word.substr(0, slash), mesh_.positions.size()));
+    if (corners_.back() >= beyond_) {
+      // Vertices may come after the faces that use them: judged at the end.
+      beyond_ = corners_.back() + std::size_t{1};
+      beyond_line_ = lines_.line_number();
+    }
+    const std::size_t second = word.find('/', slash + (slash < word.size() ? 1 : 0));
+    const std::string_view normal =
+        second == std::string_view::npos ? std::string_view() : word.substr(second + 1);
+    normals_fit_ =
+        normals_fit_ && !normal.empty() && index(normal, mesh_.normals.size()) == corners_.back();
   }
 
   void face() {
     corners_.clear();
     for (std::string_view word = lines_.word(); !word.empty(); word = lines_.word()) {
-      const std::size_t slash = std::min(word.find('/'), word.size());
-      corners_.push_back(index(word.substr(0, slash), mesh_.positions.size()));
-      if (corners_.back() >= beyond_) {
-        // Vertices may come after the faces that use them: judged at the end.
-        beyond_ = corners_.back() + std::size_t{1};
-        beyond_line_ = lines_.line_number();
-      }
-      const std::size_t second = word.find('/', slash + (slash < word.size() ? 1 : 0));
-      normals_fit_ = normals_fit_ && second != std::string_view::npos &&
-                     index(word.substr(second + 1), mesh_.normals.size()) == corners_.back();
+      corner(word);
     }
     if (corners_.size() < 3) {
       lines_.fail("a face with " + std::to_string(corners_.size()) + " corners");
     }
-    append_fan(mesh_.triangles, corners_);
+    polygons_.add(mesh_.triangles, corners_);
   }
 
-  void finish() {
+  void skip(std::string_view keyword) {
+    if (is_one_of(keyword, kSkipped)) {
+      has_words_ = true;
+    } else if (is_one_of(keyword, kFreeForm)) {
+      has_words_ = true;
+      ++free_form_;
+    } else if (unknown_++ == 0) {
+      unknown_word_ = keyword;
+      unknown_line_ = lines_.line_number();
+    }
+  }
+
+  /// A page of the Web, a letter or nothing at all is no empty mesh.
+  void check_words() const {
+    if (!mesh_.positions.empty()) {
+      return;
+    }
+    if (unknown_ > 0) {
+      fail_format(path_, "no OBJ file: line " + std::to_string(unknown_line_) + " starts with " +
+                             in_quotes(unknown_word_) + ", and no line holds a vertex");
+    }
+    if (!has_words_ && mesh_.triangles.empty() && text_.find('#') == std::string_view::npos) {
+      fail_format(path_, "an empty file");
+    }
+  }
+
+  void check_corners() const {
     if (mesh_.positions.size() > static_cast<std::size_t>(kMostVertices)) {
       throw Error(ErrorCode::too_large, quoted(path_) + ": " +
                                             std::to_string(mesh_.positions.size()) +
@@ -84,18 +149,45 @@ class ObjReader {
                              std::to_string(beyond_) + " of " +
                              std::to_string(mesh_.positions.size()));
     }
+  }
+
+  ScalarMesh finish() {
     if (!normals_fit_ || mesh_.normals.size() != mesh_.positions.size()) {
       mesh_.normals.clear();
     }
+    ScalarMesh surface{std::move(mesh_), {}};
+    cut_polygons(path_, polygons_, surface);
+    leave_out_not_finite(path_, surface,
+                         [this](std::size_t v) { return place_of(not_finite_, v); });
+    if (free_form_ > 0) {
+      add_warning(surface.warnings, path_,
+                  "skipped " + count_of(static_cast<std::uint64_t>(free_form_), "line") +
+                      " of curves or surfaces that are no polygons");
+    }
+    if (unknown_ > 0) {
+      add_warning(surface.warnings, path_,
+                  "skipped " + count_of(static_cast<std::uint64_t>(unknown_), "line") +
+                      " unknown to OBJ, the first of them line " + std::to_string(unknown_line_) +
+                      ", which starts with " + in_quotes(unknown_word_));
+    }
+    return surface;
   }
 
   const std::filesystem::path& path_;
+  std::string_view text_;
   Scanner lines_;
   Mesh mesh_;
+  Polygons polygons_;
   std::vector<std::uint32_t> corners_;
+  std::vector<VertexLine> not_finite_;
   std::size_t beyond_ = 0;  ///< one above the largest index of a vertex so far
   std::int64_t beyond_line_ = 0;
   bool normals_fit_ = true;
+  bool has_words_ = false;      ///< of OBJ, beside v, vn and f
+  std::int64_t free_form_ = 0;  ///< lines of kFreeForm
+  std::int64_t unknown_ = 0;    ///< lines that are none of OBJ's
+  std::string_view unknown_word_;
+  std::int64_t unknown_line_ = 0;
 };
 
 void write_line(AtomicFile& file, std::string_view keyword, const Vec3& vector) {
@@ -108,7 +200,7 @@ void write_line(AtomicFile& file, std::string_view keyword, const Vec3& vector) 
 
 ScalarMesh read_obj(const InputFile& file) {
   const Array<char> text = file.read_text(0, file.size());
-  return {ObjReader(file.path(), plain_text(file.path(), {text.data(), text.size()})).read(), {}};
+  return ObjReader(file.path(), plain_text(file.path(), {text.data(), text.size()})).read();
 }
 
 void write_obj(AtomicFile& file, const Mesh& mesh, bool normals) {

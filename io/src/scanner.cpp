@@ -70,6 +70,15 @@ double Scanner::number(const char* what) {
   return *value;
 }
 
+double Scanner::any_number(const char* what) {
+  const std::string_view text = word();
+  const std::optional<double> value = to_number(text);
+  if (!value) {
+    fail_word(text, what);
+  }
+  return *value;
+}
+
 std::int64_t Scanner::integer(const char* what) {
   const std::string_view text = word();
   const std::optional<std::int64_t> value = to_integer(text);

@@ -31,8 +31,15 @@ class Scanner {
   std::string_view word();
   /// What is left of the line.
   [[nodiscard]] std::string_view rest() const { return line_; }
-  /// The next word as a finite number or an integer; `what` is named if there is none.
+  /// Passes over that many bytes of it, or over all.
+  void drop(std::size_t bytes) { line_.remove_prefix(bytes); }
+  void drop_rest() { line_ = {}; }
+  /// Where the text after the line starts.
+  [[nodiscard]] std::size_t offset() const { return lines_.offset(); }
+  /// The next word as a finite number, as one that need not be finite, or as an integer; `what` is
+  /// named if there is none.
   double number(const char* what);
+  double any_number(const char* what);
   std::int64_t integer(const char* what);
   [[nodiscard]] std::int64_t line_number() const { return line_number_; }
   /// \throw Error file_format: 'path', line n: matter

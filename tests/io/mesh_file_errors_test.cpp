@@ -88,7 +88,7 @@ TEST_CASE("off: what is wrong is told with its line") {
   check_refused("m.off", "", {"empty"});
   check_refused("m.off", "ply\n", {"line 1", "'ply'"});
   check_refused("m.off", "4OFF\n1 0 0\n0 0 0 0\n", {"line 1", "'4'"});
-  check_refused("m.off", "OFF BINARY\n", {"binary"});
+  check_refused("m.off", "OFF BINARY\n", {"truncated"});
   check_refused("m.off", "OFF\n", {"number of vertices is missing"});
   check_refused("m.off", "OFF\n3\n", {"number of faces is missing"});
   check_refused("m.off", "OFF\n-3 1 0\n", {"number of vertices is -3"});
@@ -98,7 +98,8 @@ TEST_CASE("off: what is wrong is told with its line") {
   check_refused("m.off", "OFF\n3 1 0\n0 0 0\n1 0 0 # end here\n", {"3 vertices wanted, 2 found"});
   check_refused("m.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", {"2 faces wanted, 1 found"});
   check_refused("m.off", "OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n", {"line 4", "missing"});
-  check_refused("m.off", "OFF\n3 1 0\n0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n", {"line 4", "'nan'"});
+  check_refused("m.off", "OFF\n3 1 0\n0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n",
+                {"line 4", "vertex 1", "nan"});
   check_refused("m.off", "OFF\n3 1 0\n0 0 0\n1 1e999 0\n0 1 0\n3 0 1 2\n", {"line 4", "'1e999'"});
   check_refused("m.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", {"line 6", "vertex 3 of 3"});
   check_refused("m.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", {"line 6", "vertex -1"});
@@ -110,7 +111,8 @@ TEST_CASE("off: what is wrong is told with its line") {
 TEST_CASE("obj: what is wrong is told with its line") {
   const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
   check_refused("m.obj", "v 0 0\n", {"line 1", "missing"});
-  check_refused("m.obj", "v 0 0 inf\n", {"line 1", "'inf'"});
+  check_refused("m.obj", "v 0 0 1e999\n", {"line 1", "'1e999'"});
+  check_refused("m.obj", "v 0 0 inf\nf 1 1 1\n", {"line 1", "vertex 0", "inf"});
   check_refused("m.obj", square + "f 1 2\n", {"line 5", "2 corners"});
   check_refused("m.obj", square + "f 1 2 5\nf 1 2 3\n", {"line 5", "vertex 5 of 4"});
   check_refused("m.obj", square + "f 1 2 0\n", {"line 5", "'0'"});

@@ -51,17 +51,26 @@ MeshFileReport write_mesh(const std::filesystem::path& path, const Mesh& mesh,
                           const WriteMeshOptions& options = {});
 
 /// Reads a mesh; the extension of the path, in any case of letters, tells the format. Vertices and
-/// faces keep their order; polygons become fans of triangles about their first corner. For glTF and
-/// Draco see read_gltf() and read_drc().
+/// faces keep their order. A polygon of n corners becomes n - 2 triangles with its corners: a fan
+/// about its first corner where that fills it, else ears are cut off, so that polygons need neither
+/// be convex nor quite plane. For glTF and Draco see read_gltf() and read_drc().
+///
+/// What is not finite and the surface does without is left out: vertices that no triangle uses (those
+/// behind them move up), and all normals if one is bad. Text may start with a byte order mark, and
+/// its lines end with a line feed, a carriage return or both.
 /// - PLY, text or binary of either byte order: other elements are skipped.
-/// - OBJ: normals are taken where every corner `v//n` has n = v; groups, materials and texture
-///   coordinates are skipped.
-/// - OFF, text: with its prefixes C, N and ST; colours and texture coordinates are skipped.
+/// - OBJ: normals are taken where every corner `v//n` has n = v; groups, materials, texture
+///   coordinates, weights, colours, lines, points and free forms are skipped. Indices may be
+///   negative; faces may come before their vertices. A file without a vertex is an empty mesh only
+///   if all its lines are OBJ's.
+/// - OFF, text or binary: with its prefixes C, N and ST in any letters, or without a keyword; colours
+///   and texture coordinates are skipped. Vertices and faces stand in lines of their own, or run
+///   across lines, as long as the whole file fits.
 /// - STL, text or binary: corners with equal coordinates become one vertex, in the order of their
 ///   first appearance; triangles that lose a corner this way are kept.
 /// \throw Error file_missing if the file cannot be opened; file_format if it is malformed,
 ///   truncated, of a kind not supported or of an unknown extension, an index is out of range, a
-///   number not finite; too_large beyond 2^32 - 1 vertices. The message names the file and the line
+///   vertex of a triangle not finite; too_large beyond 2^32 - 1 vertices. The message names the file and the line
 ///   or element.
 ///
 /// Cost: linear; memory is bounded by a small multiple of the file's size.
