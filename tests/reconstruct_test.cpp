@@ -64,7 +64,8 @@ std::map<std::uint64_t, Vec3> by_edge(const Mesh& mesh) {
   return result;
 }
 
-// Whether each vertex lies strictly between the ends of its dual edge, whose nodes -1 and n lie on open domain faces.
+// Whether each vertex lies strictly between the ends of its dual edge, whose nodes -1 and n lie on
+// open domain faces.
 bool are_within_edges(const Mesh& mesh, const Grid& grid) {
   return std::all_of(mesh.positions.begin(), mesh.positions.end(), [&](const Vec3& position) {
     const auto n = static_cast<std::size_t>(&position - mesh.positions.data());
@@ -769,7 +770,8 @@ TEST_SUITE("reconstruct: normals and ids") {
       REQUIRE(are_within_edges(mesh, unit_grid(dims)));
       const Measure facts = measure(mesh);
       CHECK(facts.manifold);
-      // Where neighbours round to different sides the surface steps over the centres by the clearance, no more.
+      // Where neighbours round to different sides the surface steps over the centres by the
+      // clearance, no more.
       CHECK(facts.area == doctest::Approx(static_cast<double>(dims[0] * dims[1])).epsilon(1e-9));
       for (const Vec3& p : mesh.positions) {
         REQUIRE(std::abs(p[2] - 4.5) <= 1.1e-12);

@@ -39,12 +39,14 @@ class DualGrid {
   [[nodiscard]] double coordinate(std::size_t axis, std::int64_t local) const {
     return coordinates_[axis][static_cast<std::size_t>(local)];
   }
-  /// Fraction of the node for the decision on ambiguous faces; >= 1/2 where the node is inside, but for rounding.
+  /// Fraction of the node for the decision on ambiguous faces; >= 1/2 where the node is inside, but
+  /// for rounding.
   [[nodiscard]] double node_fraction(const Index3& node) const;
   /// Fraction of the cell that the node stands for.
   [[nodiscard]] double cell_fraction(const Index3& node, const NodeOrigin& origin) const;
-  /// Plane of the cell itself, an outermost one, or a pure one where it has none. Which cells that are as good as pure
-  /// have one depends on the block: it does not see the edges that leave it at its low sides.
+  /// Plane of the cell itself, an outermost one, or a pure one where it has none. Which cells that
+  /// are as good as pure have one depends on the block: it does not see the edges that leave it at
+  /// its low sides.
   [[nodiscard]] UnitPlane cell_plane(const Index3& node, const NodeOrigin& origin) const;
   /// Whether the cell that the node stands for is inside, or what lies beyond the side.
   [[nodiscard]] bool is_cell_inside(const Index3& node, const NodeOrigin& origin) const {
@@ -64,12 +66,14 @@ class DualGrid {
   bool extend_ = false;
 };
 
-/// The plane's trace on the domain faces that the node lies on: a plane parallel to these faces' normals that agrees
-/// with it on the faces. Says on which side of the plane the node is: is_centre_inside().
+/// The plane's trace on the domain faces that the node lies on: a plane parallel to these faces'
+/// normals that agrees with it on the faces. Says on which side of the plane the node is:
+/// is_centre_inside().
 ///
-/// Let one node lie on one face more than another, f = 1 or -1 along an axis. The offset of its trace is the other's
-/// less f m / 2, m of that axis. Rounding is monotone, so if the first is inside and the second outside, f m > 0, and
-/// f m < 0 if it is the other way round: where the two nodes are on different sides, m is not 0.
+/// Let one node lie on one face more than another, f = 1 or -1 along an axis. The offset of its
+/// trace is the other's less f m / 2, m of that axis. Rounding is monotone, so if the first is
+/// inside and the second outside, f m > 0, and f m < 0 if it is the other way round: where the two
+/// nodes are on different sides, m is not 0.
 [[nodiscard]] UnitPlane trace(const UnitPlane& plane, const std::array<int, 3>& face);
 
 }  // namespace difmesh::detail

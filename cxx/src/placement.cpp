@@ -6,9 +6,9 @@
 namespace difmesh::detail {
 namespace {
 
-// The line cuts a corner off the cell with fraction `cut` <= 1/2; `other` >= 1/2 is its neighbour's. Position from the
-// cut cell, or nothing where the line does not run that way. The denominator is 4 (√(cut + other) - √cut)² and least for
-// halves: 4 (1 - √½)² = 0.34.
+// The line cuts a corner off the cell with fraction `cut` <= 1/2; `other` >= 1/2 is its
+// neighbour's. Position from the cut cell, or nothing where the line does not run that way. The
+// denominator is 4 (√(cut + other) - √cut)² and least for halves: 4 (1 - √½)² = 0.34.
 std::optional<double> corner_cut(double cut, double other) {
   if (!(cut > 0.0)) {
     return std::nullopt;

@@ -186,8 +186,9 @@ template <class R>
 /// A plane that misses the centre of its cell misses it by more, if only by so little.
 inline constexpr double kBesideCentre = 1e-300;
 
-/// a at which cube_share(m, a) is the fraction, clamped to [0,1]. Whatever rounding does, a has the sign of the fraction
-/// less 1/2: a plane and the fraction that it was made of agree on which side the cell's centre is.
+/// a at which cube_share(m, a) is the fraction, clamped to [0,1]. Whatever rounding does, a has the
+/// sign of the fraction less 1/2: a plane and the fraction that it was made of agree on which side
+/// the cell's centre is.
 template <class R>
 [[gnu::always_inline]] inline R offset_of_share(const Sorted<R>& m, const R& fraction) {
   const R half = m.sum() * 0.5;

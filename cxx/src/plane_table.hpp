@@ -16,8 +16,8 @@ namespace difmesh::detail {
 
 /// The plane m·u = a of a cell in the unit cube about its centre; the material is m·u <= a. A cell
 /// that is full or empty has m = 0 and a = 1 or -1. One without a gradient has m = 0 and a = γ -
-/// 1/2: its normal is taken along whichever edge is asked about. The centre is inside the material, a >= 0, exactly
-/// where γ >= 1/2: see offset_of_share(). Four doubles: kernels read them so.
+/// 1/2: its normal is taken along whichever edge is asked about. The centre is inside the material,
+/// a >= 0, exactly where γ >= 1/2: see offset_of_share(). Four doubles: kernels read them so.
 struct UnitPlane {
   Vec3 m{0.0, 0.0, 0.0};
   double a = 0.0;

@@ -222,8 +222,9 @@ class VertexPlacer {
                            node_plane(edge.upper, ends.upper, ends), counts);
   }
 
-  // From a cell's centre to its domain face, or between two faces of the cell, there is one plane; it meets the edge.
-  // What it says of both nodes made the edge a crossed one, so it is not parallel to the edge: see trace().
+  // From a cell's centre to its domain face, or between two faces of the cell, there is one plane;
+  // it meets the edge. What it says of both nodes made the edge a crossed one, so it is not
+  // parallel to the edge: see trace().
   [[nodiscard]] double place_on_half_edge(const DualEdge& edge, const EdgeOrigins& ends) const {
     const bool face_above = ends.upper.face[edge.axis] > 0;
     const UnitPlane plane =
@@ -232,9 +233,10 @@ class VertexPlacer {
     return face_above ? from_centre : 1.0 + from_centre;
   }
 
-  // The plane of the cell that a node of an edge stands for. Which serve depends on nothing but the two cells, so
-  // blocks that share the edge agree. Cells of crossed edges have planes, and so have the interfacial ones along open
-  // sides; others may have one for the sake of an edge that this block does not see.
+  // The plane of the cell that a node of an edge stands for. Which serve depends on nothing but the
+  // two cells, so blocks that share the edge agree. Cells of crossed edges have planes, and so have
+  // the interfacial ones along open sides; others may have one for the sake of an edge that this
+  // block does not see.
   [[nodiscard]] UnitPlane edge_plane(const Index3& node, const NodeOrigin& origin,
                                      const EdgeOrigins& ends) const {
     const bool serves =
@@ -243,8 +245,8 @@ class VertexPlacer {
                   : UnitPlane::pure(grid_.is_cell_inside(node, origin));
   }
 
-  // The plane that stands for a node in a window: on open faces the trace of its cell's plane, which makes the window
-  // one of the face.
+  // The plane that stands for a node in a window: on open faces the trace of its cell's plane,
+  // which makes the window one of the face.
   [[nodiscard]] UnitPlane node_plane(const Index3& node, const NodeOrigin& origin,
                                      const EdgeOrigins& ends) const {
     const UnitPlane plane = edge_plane(node, origin, ends);
@@ -253,7 +255,8 @@ class VertexPlacer {
     }
     const bool inside = grid_.nodes().test(node);
     const UnitPlane traced = trace(plane, origin.face);
-    // The trace does not decide on the node's side where the cell is a smear: see DualGrid::is_extended().
+    // The trace does not decide on the node's side where the cell is a smear: see
+    // DualGrid::is_extended().
     if (traced.is_centre_inside() != inside || !traced.has_normal()) {
       return UnitPlane::pure(inside);
     }
@@ -273,8 +276,8 @@ class VertexPlacer {
     }
   }
 
-  // Rounding must not carry a vertex onto a node. Between two nodes there are numbers, for they are at least half a
-  // spacing apart, which validate() keeps above 2^-41 of the largest coordinate.
+  // Rounding must not carry a vertex onto a node. Between two nodes there are numbers, for they are
+  // at least half a spacing apart, which validate() keeps above 2^-41 of the largest coordinate.
   [[nodiscard]] Vec3 at(const Index3& lower, std::size_t axis, double along) const {
     Vec3 position;
     for (std::size_t t = 0; t < 3; ++t) {

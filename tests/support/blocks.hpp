@@ -77,7 +77,8 @@ inline Mesh in_cut_blocks(const OwnedField& field, const Grid& grid, Cuts cuts,
   return weld(meshes, grid);
 }
 
-/// The field reconstructed in eight blocks that meet at the cut, or fewer if it lies at the end of an axis.
+/// The field reconstructed in eight blocks that meet at the cut, or fewer if it lies at the end of
+/// an axis.
 inline Mesh in_blocks(const OwnedField& field, const Grid& grid, const Index3& cut,
                       const Options& options) {
   Cuts cuts;

@@ -18,8 +18,8 @@ inline double beside(double value, int ulps) {
   return std::clamp(next, 0.0, 1.0);
 }
 
-/// Independent values: nothing, next to nothing, halves and all, and the tolerance by which cells count as pure; a third
-/// of them rounded up or down.
+/// Independent values: nothing, next to nothing, halves and all, and the tolerance by which cells
+/// count as pure; a third of them rounded up or down.
 inline OwnedField near_pure_noise(const Index3& dims, double purity_tolerance, std::uint64_t seed) {
   const std::array<double, 10> values{
       0.0, 1e-7, 1e-6, 0.01, 0.5, 0.99, 1.0 - 1e-6, 1.0, purity_tolerance, 1.0 - purity_tolerance};
