@@ -100,6 +100,17 @@ TEST_CASE("linked files: a folder whose name begins with two dots is no way up")
   check_read(place.header("..data/f.raw"), false);
 }
 
+TEST_CASE("linked files: a pointer in the place of data is named as such") {
+  const Place place;
+  (void)place.folder.file("inner/inside.raw",
+                          "version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 96\n");
+  for (const bool outside : {false, true}) {
+    const auto path = place.header("inside.raw");
+    check_error([&] { (void)difmesh::read_field(path, {.outside_files = outside}); },
+                ErrorCode::file_format, {"inside.raw", "Git LFS"});
+  }
+}
+
 TEST_CASE("linked files: in the current folder by a bare name") {
   const Place place;
   (void)place.header("sub/below.raw");

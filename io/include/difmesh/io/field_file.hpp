@@ -74,11 +74,12 @@ struct ReadFieldOptions {
 /// that reach no half of their largest value bring a warning.
 ///
 /// The file is checked against its header before memory is taken: never more than five times the
-/// size of its data, or 1032 times five for gzip, as deflate gives 1032 at most.
+/// size of its data, or 1032 times five for gzip, as deflate gives 1032 at most. Of inflated bytes
+/// 2^30 are skipped at most, or 64 times as many as are wanted.
 /// \throw Error file_missing if the file cannot be opened; file_format if it is malformed,
 ///   truncated, of a kind not supported or of an unknown extension; too_large if its sizes overflow
-///   63 bits; invalid_argument for options. The message names the file and the matter. Values are
-///   not looked at: NaN is for the caller to find.
+///   63 bits; invalid_argument for options; OutOfMemory. The message names the file and the matter.
+///   Values are not looked at: NaN is for the caller to find.
 ///
 /// Cost: one pass over the file. Thread safety: concurrent calls are safe.
 /// Source: NEP 1 of NumPy; "Definition of NRRD File Format", G. Kindlmann, Teem.

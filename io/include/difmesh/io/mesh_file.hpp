@@ -70,8 +70,8 @@ MeshFileReport write_mesh(const std::filesystem::path& path, const Mesh& mesh,
 ///   first appearance; triangles that lose a corner this way are kept.
 /// \throw Error file_missing if the file cannot be opened; file_format if it is malformed,
 ///   truncated, of a kind not supported or of an unknown extension, an index is out of range, a
-///   vertex of a triangle not finite; too_large beyond 2^32 - 1 vertices. The message names the file and the line
-///   or element.
+///   vertex of a triangle not finite; too_large beyond 2^32 - 1 vertices; OutOfMemory. The message
+///   names the file and the line or element.
 ///
 /// Cost: linear; memory is bounded by a small multiple of the file's size.
 /// Thread safety: concurrent calls are safe.
