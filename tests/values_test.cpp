@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cfenv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -110,6 +111,23 @@ TEST_CASE("values: NaN stays and takes no part in extremes") {
   CHECK(extremes->lowest == -1.0);
   CHECK(extremes->highest == 3.0);
   CHECK_FALSE(extremes_of(view_of(std::vector<float>{nan, nan}, ValueType::float32)).has_value());
+}
+
+TEST_CASE("values: neither the caller's rounding counts nor do NaN leave traces") {
+  const std::vector<double> values{1.0, std::numeric_limits<double>::quiet_NaN(), 2.0};
+  const std::vector<double> wanted{1.0 / 3.0, 0.0, 2.0 / 3.0};
+  std::fesetround(FE_UPWARD);
+  std::feclearexcept(FE_ALL_EXCEPT);
+  const std::vector<double> found = fractions(values, ValueType::float64, {0.0, 3.0});
+  const std::vector<int> mask = inside(values, ValueType::float64, {1, 2});
+  const auto extremes = extremes_of(view_of(values, ValueType::float64));
+  const bool raised = std::fetestexcept(FE_INVALID) != 0;
+  std::fesetround(FE_TONEAREST);
+  CHECK_FALSE(raised);
+  CHECK(found[0] == wanted[0]);
+  CHECK(found[2] == wanted[2]);
+  CHECK(mask == std::vector<int>{255, 0, 255});
+  CHECK(extremes->highest == 2.0);
 }
 
 TEST_CASE("values: any strides come out x fastest") {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "difmesh/error.hpp"
+#include "difmesh/float_environment.hpp"
 
 namespace difmesh {
 namespace {
@@ -42,6 +43,7 @@ void for_each_value(const ValueView& values, const Action& action) {
 
 template <class Fraction>
 void write_fractions(const ValueView& values, const ValueRange& range, Fraction* fractions) {
+  const DefaultFloatEnvironment environment;
   check(values);
   const double width = range.full - range.empty;
   if (!std::isfinite(range.empty) || !std::isfinite(range.full) || !std::isfinite(width) ||
@@ -104,6 +106,7 @@ void fractions_from_values(const ValueView& values, const ValueRange& range, flo
 
 void fractions_from_labels(const ValueView& values, std::span<const std::int64_t> labels,
                            std::uint8_t* fractions) {
+  const DefaultFloatEnvironment environment;
   check(values);
   if (labels.empty()) {
     throw Error(ErrorCode::invalid_argument, "labels: there are none");
@@ -122,6 +125,7 @@ void fractions_from_labels(const ValueView& values, std::span<const std::int64_t
 }
 
 std::optional<ValueExtremes> extremes_of(const ValueView& values) {
+  const DefaultFloatEnvironment environment;
   check(values);
   std::optional<ValueExtremes> extremes;
   with_value_type(values.type, [&]<class T>(T) {
