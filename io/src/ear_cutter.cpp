@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t kCut = std::numeric_limits<std::uint32_t>::max();
 
-/// Parts of the tree seen per corner; combs, spirals and stars take below 100.
+/// Parts of the tree seen per corner; combs and spirals take 50, stars of needles 300.
 constexpr std::uint64_t kMostVisits = 1000;
 
 /// Of a triangle's longest edge squared: twice the area of a thin one.
@@ -26,7 +26,7 @@ EarCutter::Result EarCutter::cut(std::span<const Point2> points) {
   start();
   const std::size_t wanted = points.size() - 2;
   Result result = Result::done;
-  std::size_t any = 0;
+  std::uint32_t any = 0;
   while (triangles_.size() < wanted && !takes_too_long()) {
     if (cut_one_round() || cut_one_of(thin_, Shape::thin_ear) || cut_one_of(flat_, Shape::flat)) {
       continue;
@@ -41,10 +41,10 @@ EarCutter::Result EarCutter::cut(std::span<const Point2> points) {
 }
 
 void EarCutter::start() {
-  const std::size_t count = points_.size();
+  const auto count = static_cast<std::uint32_t>(points_.size());
   previous_.resize(count);
   next_.resize(count);
-  for (std::size_t c = 0; c < count; ++c) {
+  for (std::uint32_t c = 0; c < count; ++c) {
     previous_[c] = c == 0 ? count - 1 : c - 1;
     next_[c] = c + 1 == count ? 0 : c + 1;
   }
@@ -54,8 +54,8 @@ void EarCutter::start() {
   thin_.clear();
   flat_.clear();
   triangles_.clear();
-  std::vector<std::size_t> in_the_way;
-  for (std::size_t c = 0; c < count; ++c) {
+  std::vector<std::uint32_t> in_the_way;
+  for (std::uint32_t c = 0; c < count; ++c) {
     later_.push_back(c);
     if (is_in_the_way(c)) {
       in_the_way.push_back(c);
@@ -64,7 +64,7 @@ void EarCutter::start() {
   in_the_way_.build(points_, std::move(in_the_way));
 }
 
-bool EarCutter::is_in_the_way(std::size_t corner) const {
+bool EarCutter::is_in_the_way(std::uint32_t corner) const {
   return turn(points_[previous_[corner]], points_[corner], points_[next_[corner]]) <= 0.0;
 }
 
@@ -72,7 +72,7 @@ bool EarCutter::takes_too_long() const {
   return in_the_way_.visits() > kMostVisits * points_.size();
 }
 
-EarCutter::Shape EarCutter::shape_of(std::size_t corner) {
+EarCutter::Shape EarCutter::shape_of(std::uint32_t corner) {
   const Point2& a = points_[previous_[corner]];
   const Point2& b = points_[corner];
   const Point2& c = points_[next_[corner]];
@@ -98,7 +98,7 @@ bool EarCutter::cut_one_round() {
   const std::size_t wanted = points_.size() - 2;
   const std::size_t before = triangles_.size();
   for (std::size_t n = 0; n < now_.size() && triangles_.size() < wanted && !takes_too_long(); ++n) {
-    const std::size_t corner = now_[n];
+    const std::uint32_t corner = now_[n];
     if (round_of_[corner] != round_) {
       continue;  // cut off, or a neighbour was in this round
     }
@@ -112,9 +112,9 @@ bool EarCutter::cut_one_round() {
   return triangles_.size() > before;
 }
 
-bool EarCutter::cut_one_of(std::vector<std::size_t>& corners, Shape shape) {
+bool EarCutter::cut_one_of(std::vector<std::uint32_t>& corners, Shape shape) {
   while (!corners.empty()) {
-    const std::size_t corner = corners.back();
+    const std::uint32_t corner = corners.back();
     corners.pop_back();
     if (round_of_[corner] != kCut && shape_of(corner) == shape) {
       cut_off(corner);
@@ -124,9 +124,9 @@ bool EarCutter::cut_one_of(std::vector<std::size_t>& corners, Shape shape) {
   return false;
 }
 
-void EarCutter::cut_off(std::size_t corner) {
-  const std::size_t before = previous_[corner];
-  const std::size_t after = next_[corner];
+void EarCutter::cut_off(std::uint32_t corner) {
+  const std::uint32_t before = previous_[corner];
+  const std::uint32_t after = next_[corner];
   triangles_.push_back({before, corner, after});
   round_of_[corner] = kCut;
   in_the_way_.remove(corner);
@@ -136,7 +136,7 @@ void EarCutter::cut_off(std::size_t corner) {
   ask_again(after);
 }
 
-void EarCutter::ask_again(std::size_t corner) {
+void EarCutter::ask_again(std::uint32_t corner) {
   if (!is_in_the_way(corner)) {
     in_the_way_.remove(corner);
   }

@@ -8,7 +8,7 @@
 namespace difmesh::detail {
 namespace {
 
-constexpr std::size_t kGone = std::numeric_limits<std::size_t>::max();
+constexpr std::uint32_t kGone = std::numeric_limits<std::uint32_t>::max();
 
 /// The rounding of the plain formula, of the sum of its two products (Shewchuk's ccwerrboundA).
 constexpr double kTurnError = (3.0 + 16.0 * 0x1p-53) * 0x1p-53;
@@ -65,7 +65,7 @@ double turn(const Point2& a, const Point2& b, const Point2& c) {
   return std::abs(estimate.value) > estimate.error ? estimate.value : exact_turn(a, b, c);
 }
 
-void PointTree::build(std::span<const Point2> points, std::vector<std::size_t> numbers) {
+void PointTree::build(std::span<const Point2> points, std::vector<std::uint32_t> numbers) {
   points_ = points;
   numbers_ = std::move(numbers);
   visits_ = 0;
@@ -74,15 +74,15 @@ void PointTree::build(std::span<const Point2> points, std::vector<std::size_t> n
   if (!numbers_.empty()) {
     build(0, 0, numbers_.size());
   }
-  for (std::size_t slot = 0; slot < numbers_.size(); ++slot) {
+  for (std::uint32_t slot = 0; slot < numbers_.size(); ++slot) {
     slots_[numbers_[slot]] = slot;
   }
 }
 
 void PointTree::build(std::size_t node, std::size_t first, std::size_t last) {
-  const std::span<std::size_t> numbers(numbers_.data() + first, last - first);
-  Node box{points_[numbers[0]], points_[numbers[0]], numbers.size()};
-  for (const std::size_t number : numbers) {
+  const std::span<std::uint32_t> numbers(numbers_.data() + first, last - first);
+  Node box{points_[numbers[0]], points_[numbers[0]], static_cast<std::uint32_t>(numbers.size())};
+  for (const std::uint32_t number : numbers) {
     for (std::size_t axis = 0; axis < 2; ++axis) {
       box.low[axis] = std::min(box.low[axis], points_[number][axis]);
       box.high[axis] = std::max(box.high[axis], points_[number][axis]);
@@ -96,15 +96,15 @@ void PointTree::build(std::size_t node, std::size_t first, std::size_t last) {
   const std::size_t axis = box.high[0] - box.low[0] < box.high[1] - box.low[1] ? 1 : 0;
   const std::size_t half = numbers.size() / 2;
   std::nth_element(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(half),
-                   numbers.end(), [&](std::size_t a, std::size_t b) {
+                   numbers.end(), [&](std::uint32_t a, std::uint32_t b) {
                      return std::pair(points_[a][axis], a) < std::pair(points_[b][axis], b);
                    });
   build(2 * node + 1, first, first + half);
   build(2 * node + 2, first + half, last);
 }
 
-void PointTree::remove(std::size_t number) {
-  const std::size_t slot = slots_[number];
+void PointTree::remove(std::uint32_t number) {
+  const std::uint32_t slot = slots_[number];
   if (slot == kGone) {
     return;
   }
@@ -131,7 +131,9 @@ bool PointTree::any_in(const std::array<Point2, 3>& triangle, std::size_t node, 
                        std::size_t last) {
   ++visits_;
   const Node& box = nodes_[node];
-  if (box.points == 0) {
+  const bool is_corner = box.low == box.high && (box.low == triangle[0] || box.low == triangle[1] ||
+                                                 box.low == triangle[2]);
+  if (box.points == 0 || is_corner) {
     return false;
   }
   for (std::size_t axis = 0; axis < 2; ++axis) {
@@ -156,17 +158,17 @@ bool PointTree::any_in(const std::array<Point2, 3>& triangle, std::size_t node, 
     return any_in(triangle, 2 * node + 1, first, middle) ||
            any_in(triangle, 2 * node + 2, middle, last);
   }
-  return std::any_of(numbers_.begin() + static_cast<std::ptrdiff_t>(first),
-                     numbers_.begin() + static_cast<std::ptrdiff_t>(last), [&](std::size_t number) {
-                       if (number == kGone) {
-                         return false;
-                       }
-                       const Point2& p = points_[number];
-                       return p != triangle[0] && p != triangle[1] && p != triangle[2] &&
-                              turn(triangle[0], triangle[1], p) >= 0.0 &&
-                              turn(triangle[1], triangle[2], p) >= 0.0 &&
-                              turn(triangle[2], triangle[0], p) >= 0.0;
-                     });
+  return std::any_of(
+      numbers_.begin() + static_cast<std::ptrdiff_t>(first),
+      numbers_.begin() + static_cast<std::ptrdiff_t>(last), [&](std::uint32_t number) {
+        if (number == kGone) {
+          return false;
+        }
+        const Point2& p = points_[number];
+        return p != triangle[0] && p != triangle[1] && p != triangle[2] &&
+               turn(triangle[0], triangle[1], p) >= 0.0 &&
+               turn(triangle[1], triangle[2], p) >= 0.0 && turn(triangle[2], triangle[0], p) >= 0.0;
+      });
 }
 
 }  // namespace difmesh::detail

@@ -21,8 +21,8 @@ using Point2 = std::array<double, 2>;
 class PointTree {
  public:
   /// Over the points of these numbers. Cost: O(n log n)
-  void build(std::span<const Point2> points, std::vector<std::size_t> numbers);
-  void remove(std::size_t number);
+  void build(std::span<const Point2> points, std::vector<std::uint32_t> numbers);
+  void remove(std::uint32_t number);
   /// Whether a point is in the counter-clockwise triangle or on its border. Points at the place of a
   /// corner do not count. Cost: O(log n), and each part of the tree that the border crosses.
   [[nodiscard]] bool any_in(const std::array<Point2, 3>& triangle);
@@ -30,20 +30,20 @@ class PointTree {
   [[nodiscard]] std::uint64_t visits() const { return visits_; }
 
  private:
-  static constexpr std::size_t kLeaf = 4;
+  static constexpr std::size_t kLeaf = 8;
   struct Node {
     Point2 low;
     Point2 high;
-    std::size_t points;  ///< that are left
+    std::uint32_t points;  ///< that are left
   };
   void build(std::size_t node, std::size_t first, std::size_t last);
   [[nodiscard]] bool any_in(const std::array<Point2, 3>& triangle, std::size_t node,
                             std::size_t first, std::size_t last);
 
   std::span<const Point2> points_;
-  std::vector<std::size_t> numbers_;  ///< sorted by place; kGone where one left
-  std::vector<std::size_t> slots_;    ///< where a point is in numbers_
-  std::vector<Node> nodes_;           ///< the halves of node n are 2n + 1 and 2n + 2
+  std::vector<std::uint32_t> numbers_;  ///< sorted by place; kGone where one left
+  std::vector<std::uint32_t> slots_;    ///< where a point is in numbers_
+  std::vector<Node> nodes_;             ///< the halves of node n are 2n + 1 and 2n + 2
   std::uint64_t visits_ = 0;
 };
 

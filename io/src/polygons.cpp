@@ -15,6 +15,8 @@ namespace {
 /// Of a triangle's longest edge squared: twice the area of one that counts as flat.
 constexpr double kFlat = 1e-12;
 
+constexpr std::size_t kMostCorners = 0xFFFFFFFF;
+
 Vec3 minus(const Vec3& a, const Vec3& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
@@ -173,7 +175,8 @@ Polygons::Report Polygons::cut(const std::filesystem::path& path, Mesh& mesh) co
       if (!polygon.has_area() || polygon.fan_is_right()) {
         continue;
       }
-      const EarCutter::Result result = cutter.cut(polygon.in_plane());
+      const EarCutter::Result result = run.corners <= kMostCorners ? cutter.cut(polygon.in_plane())
+                                                                   : EarCutter::Result::too_long;
       if (result == EarCutter::Result::too_long) {
         fail_format(path, "a face of " + std::to_string(run.corners) + " corners from vertex " +
                               std::to_string(polygon.corners()[0]) +
