@@ -15,6 +15,7 @@ namespace {
 constexpr std::string_view kSpace = " \t\r\n\v\f";
 
 constexpr std::size_t kLongestQuote = 80;
+constexpr std::size_t kLongestMatter = 1000;
 
 /// The beginning of a text, not cut within a character of UTF-8.
 std::string_view beginning(std::string_view text, std::size_t most) {
@@ -28,6 +29,11 @@ std::string_view beginning(std::string_view text, std::size_t most) {
   return text.substr(0, length);
 }
 
+/// Printable, the rest of a long text left out.
+std::string shortened(std::string_view text, std::size_t most) {
+  return text.size() > most ? printable(beginning(text, most)) + "..." : printable(text);
+}
+
 /// std::from_chars takes no plus sign.
 std::string_view without_plus(std::string_view word) {
   return word.size() > 1 && word[0] == '+' && word[1] != '-' && word[1] != '+' ? word.substr(1)
@@ -39,8 +45,8 @@ std::string_view without_plus(std::string_view word) {
 std::string in_quotes(std::string_view word) {
   // Not "'" + std::string(word): g++ 12 warns of an overlap there that cannot be (-Wrestrict).
   std::string text = "'";
-  text += printable(word.size() > kLongestQuote ? beginning(word, kLongestQuote) : word);
-  text += word.size() > kLongestQuote ? "...'" : "'";
+  text += shortened(word, kLongestQuote);
+  text += '\'';
   return text;
 }
 
@@ -52,7 +58,7 @@ std::string quoted(const std::filesystem::path& path) {
 }
 
 void fail_format(const std::filesystem::path& path, const std::string& matter) {
-  throw Error(ErrorCode::file_format, quoted(path) + ": " + printable(matter));
+  throw Error(ErrorCode::file_format, quoted(path) + ": " + shortened(matter, kLongestMatter));
 }
 
 std::string count_of(std::uint64_t count, std::string_view thing) {

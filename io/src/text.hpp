@@ -17,7 +17,7 @@ namespace difmesh::detail {
 [[nodiscard]] std::string in_quotes(std::string_view word);
 /// The same for a path, whole.
 [[nodiscard]] std::string quoted(const std::filesystem::path& path);
-/// \throw Error file_format: 'path': matter, printable
+/// \throw Error file_format: 'path': matter, printable, the rest of a long one left out
 [[noreturn]] void fail_format(const std::filesystem::path& path, const std::string& matter);
 
 /// "1 byte", "2 bytes"

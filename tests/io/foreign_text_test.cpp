@@ -228,3 +228,22 @@ TEST_CASE("quotes from files are printable and short and names of files are whol
     }
   }
 }
+
+TEST_CASE("messages about files are short whatever the files hold") {
+  const TempFolder folder;
+  const std::string junk(100000, 'y');
+  for (const std::string& text :
+       {"NRRD0004\n" + junk + ": 1\n\n", "NRRD0004\ntype: " + junk + "\n\n",
+        "NRRD0004\ntype: uchar\ndimension: 3\nencoding: raw\nsizes: 1 1 " + junk + "\n\n"}) {
+    const auto path = folder.file("f.nrrd", text);
+    try {
+      (void)difmesh::read_field(path);
+      FAIL("no error was thrown");
+    } catch (const difmesh::Error& error) {
+      const std::string message = error.what();
+      CAPTURE(message);
+      CHECK(message.size() < 1200);
+      CHECK(message.find("yyy...") != std::string::npos);
+    }
+  }
+}
