@@ -160,6 +160,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (std::int64_t& dim : dims) {
     dim = 1 + input.number(9);
   }
+  // Columns of nine cells fit, but not nine ways: small fields show the same, sooner.
+  while (dims[0] * dims[1] * dims[2] > 125) {
+    --*std::max_element(dims, dims + 3);
+  }
   dif_field field;
   demand(dif_field_init(&field, sizeof field, dims, type, dims) == DIF_OK);
   Memory memory = lay_out(input, field, sizes[static_cast<std::size_t>(type)]);
@@ -179,7 +183,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     check_mesh(mesh, options);
   }
   dif_mesh_free(mesh);
-
+  if (input.number(4) != 0) {
+    return 0;
+  }
   std::vector<double> offsets(static_cast<std::size_t>(dims[0] * dims[1] * dims[2]), -9.0);
   dif_plane_arrays arrays;
   demand(dif_plane_arrays_init(&arrays, sizeof arrays) == DIF_OK);
