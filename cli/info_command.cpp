@@ -122,12 +122,14 @@ Json mesh_json(const Mesh& mesh, const Measure& facts, const std::optional<doubl
           {"boundary_edges", facts.boundary_edges},
           {"non_manifold_edges", facts.non_manifold_edges},
           {"misoriented_edges", facts.misoriented_edges},
+          {"unbalanced_edges", facts.unbalanced_edges},
           {"non_manifold_vertices", facts.non_manifold_vertices},
           {"isolated_vertices", facts.isolated_vertices},
           {"degenerate_triangles", facts.degenerate_triangles},
           {"components", facts.components},
           {"euler_number", facts.euler_number},
           {"area", facts.area},
+          {"closed_by_position", facts.has_volume},
           {"volume", volume ? Json(*volume) : Json()},
           {"low", facts.low},
           {"high", facts.high},
@@ -140,6 +142,21 @@ std::string volume_text(const Measure& facts) {
     return rounded(*volume, 10);
   }
   return facts.closed ? "none, the mesh has mixed orientation" : "none, the mesh is not closed";
+}
+
+std::string closed_text(const Measure& facts) {
+  if (facts.closed) {
+    return "yes";
+  }
+  std::string text = "no: ";
+  if (facts.boundary_edges > 0) {
+    text += count_of(facts.boundary_edges, "boundary edge");
+  }
+  if (facts.unbalanced_edges > 0) {
+    text += text.size() > 4 ? ", " : "";
+    text += count_of(facts.unbalanced_edges, "edge") + " of three triangles or more unbalanced";
+  }
+  return text + (facts.has_volume ? "; closed where equal positions are joined" : "");
 }
 
 std::string manifold_text(const Measure& facts) {
@@ -166,8 +183,7 @@ void print_mesh(std::ostream& out, const std::string& path, const Measure& facts
                  (facts.degenerate_triangles > 0
                       ? ", of these without area: " + std::to_string(facts.degenerate_triangles)
                       : ""));
-  print_fact(out, "closed",
-             facts.closed ? "yes" : "no: " + count_of(facts.boundary_edges, "boundary edge"));
+  print_fact(out, "closed", closed_text(facts));
   print_fact(out, "manifold", manifold_text(facts));
   print_fact(out, "components", std::to_string(facts.components));
   print_fact(out, "Euler number", std::to_string(facts.euler_number));

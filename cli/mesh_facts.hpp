@@ -8,11 +8,9 @@
 
 namespace difmesh::cli {
 
-/// Nothing where a mesh has boundary edges, or triangles turned against their neighbours: sums over
-/// it mean nothing then.
+/// Nothing where a mesh bounds no body: sums over it mean nothing then.
 [[nodiscard]] inline std::optional<double> enclosed_volume(const Measure& facts) {
-  const bool bounds = facts.closed && facts.misoriented_edges == 0;
-  return bounds ? std::optional(facts.volume) : std::nullopt;
+  return facts.has_volume ? std::optional(facts.volume) : std::nullopt;
 }
 
 }  // namespace difmesh::cli

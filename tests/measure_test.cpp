@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -251,8 +252,10 @@ TEST_CASE("three triangles on one edge make it and its two ends non-manifold") {
   CHECK(m.non_manifold_vertices == 2);
   CHECK(m.misoriented_edges == 0);
   CHECK(m.boundary_edges == 6);
+  CHECK(m.unbalanced_edges == 1);
   CHECK(m.components == 1);
   CHECK_FALSE(m.manifold);
+  CHECK_FALSE(m.has_volume);
 }
 
 TEST_CASE("a flipped triangle is misoriented along its three edges") {
@@ -263,7 +266,89 @@ TEST_CASE("a flipped triangle is misoriented along its three edges") {
   CHECK(m.non_manifold_edges == 0);
   CHECK(m.non_manifold_vertices == 0);
   CHECK(m.closed);
+  CHECK_FALSE(m.has_volume);
   CHECK_FALSE(m.manifold);
+}
+
+TEST_CASE("a face twice leaves no volume, twice and once back leaves it") {
+  // Four vertices, of whose faces the slanted one comes twice.
+  Soup soup = tetrahedron();
+  soup.triangles.push_back({1, 2, 3});
+  const Measure doubled = soup.measure();
+  CHECK(doubled.non_manifold_edges == 3);
+  CHECK(doubled.unbalanced_edges == 3);
+  CHECK(doubled.boundary_edges == 0);
+  CHECK_FALSE(doubled.closed);
+  CHECK_FALSE(doubled.has_volume);
+  CHECK_FALSE(doubled.manifold);
+
+  soup.triangles.push_back({1, 3, 2});
+  const Measure cancelled = soup.measure();
+  CHECK(cancelled.non_manifold_edges == 3);
+  CHECK(cancelled.unbalanced_edges == 0);
+  CHECK(cancelled.closed);
+  CHECK(cancelled.has_volume);
+  CHECK(cancelled.volume == doctest::Approx(1.0 / 6.0).epsilon(1e-15));
+
+  soup.triangles.back() = {1, 2, 3};  // three times the same way
+  const Measure tripled = soup.measure();
+  CHECK(tripled.unbalanced_edges == 3);
+  CHECK(tripled.closed);  // four triangles on each edge
+  CHECK_FALSE(tripled.has_volume);
+}
+
+TEST_CASE("two cubes that share an edge have the volume of two, turned apart none") {
+  Soup soup = box({0, 0, 0}, {1, 1, 1});
+  // The other's corners 0 and 4 are this one's 3 and 7.
+  const std::vector<std::uint32_t> other{3, 8, 9, 10, 7, 11, 12, 13};
+  for (const std::uint32_t n : {1U, 2U, 3U, 5U, 6U, 7U}) {
+    soup.positions.push_back({1.0 + (n & 1), 1.0 + (n >> 1 & 1), static_cast<double>(n >> 2 & 1)});
+  }
+  for (const Triangle& t : box({0, 0, 0}, {1, 1, 1}).triangles) {
+    soup.triangles.push_back({other[t[0]], other[t[1]], other[t[2]]});
+  }
+  const Measure balanced = soup.measure();
+  CHECK(balanced.non_manifold_edges == 1);
+  CHECK(balanced.unbalanced_edges == 0);
+  CHECK(balanced.closed);
+  CHECK(balanced.has_volume);
+  CHECK(balanced.volume == doctest::Approx(2.0).epsilon(1e-15));
+  CHECK(balanced.area == doctest::Approx(12.0).epsilon(1e-15));
+
+  // One of the four triangles at the edge turned round: three run along it one way.
+  for (Triangle& t : soup.triangles) {
+    if (std::count(t.begin(), t.end(), 3U) == 1 && std::count(t.begin(), t.end(), 7U) == 1) {
+      std::swap(t[1], t[2]);
+      break;
+    }
+  }
+  const Measure turned = soup.measure();
+  CHECK(turned.closed);
+  CHECK(turned.unbalanced_edges == 1);
+  CHECK(turned.misoriented_edges == 2);
+  CHECK_FALSE(turned.has_volume);
+}
+
+TEST_CASE("a box of split vertices is open by index and has its volume") {
+  const Soup whole = box({-2, 1, 0}, {1, 2, 3});
+  Soup split;
+  for (const Triangle& t : whole.triangles) {
+    const auto first = static_cast<std::uint32_t>(split.positions.size());
+    for (const std::uint32_t v : t) {
+      split.positions.push_back(whole.positions[v]);
+    }
+    split.triangles.push_back({first, first + 1, first + 2});
+  }
+  split.positions[2][2] = -0.0;  // which equals 0
+  const Measure m = split.measure();
+  CHECK(m.boundary_edges == 36);
+  CHECK_FALSE(m.closed);
+  CHECK(m.has_volume);
+  CHECK(m.volume == doctest::Approx(6.0).epsilon(1e-15));
+
+  split.positions[3][1] += 1e-15;  // a crack, however thin
+  CHECK_FALSE(split.measure().has_volume);
+  CHECK(whole.measure().has_volume);
 }
 
 TEST_CASE("triangles without area are counted and leave the topology right") {

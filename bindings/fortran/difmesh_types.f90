@@ -278,6 +278,9 @@ module difmesh_types
     real(c_double) :: volume = 0
     real(c_double) :: low(3) = 0
     real(c_double) :: high(3) = 0
+    integer(c_int64_t) :: unbalanced_edges = 0
+    integer(c_int32_t) :: has_volume = 0
+    integer(c_int32_t) :: reserved = 0
   end type
 
   type, bind(c), public :: dif_distance_options

@@ -33,6 +33,8 @@ dif_status dif_mesh_measure(const dif_mesh* mesh, dif_measure* measure) {
     result.volume = facts.volume;
     std::copy(facts.low.begin(), facts.low.end(), result.low);
     std::copy(facts.high.begin(), facts.high.end(), result.high);
+    result.unbalanced_edges = facts.unbalanced_edges;
+    result.has_volume = facts.has_volume ? 1 : 0;
     capi::write_output(measure, result, "measure");
   });
 }

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "closed_surface.hpp"
 #include "difmesh/float_environment.hpp"
 #include "mesh_arrays.hpp"
 
@@ -208,8 +209,16 @@ class Topology {
       join_corners(uses[0].high, uses[0], uses[1], false);
     } else {
       ++m.non_manifold_edges;
+      count_ways(uses, m);
       on_bad_edge_[low] = on_bad_edge_[uses[0].high] = true;
     }
+  }
+
+  void count_ways(std::span<const EdgeUse> uses, Measure& m) {
+    const auto up = static_cast<std::size_t>(
+        std::count_if(uses.begin(), uses.end(), [](const EdgeUse& use) { return use.ascending; }));
+    m.unbalanced_edges += 2 * up == uses.size() ? 0 : 1;
+    odd_edges_ += static_cast<std::int64_t>(uses.size() % 2);
   }
 
   void join_corners(std::size_t vertex, const EdgeUse& a, const EdgeUse& b, bool at_low) {
@@ -224,7 +233,7 @@ class Topology {
       m.isolated_vertices += fans_[v] == 0 ? 1 : 0;
       m.non_manifold_vertices += fans_[v] > 1 || on_bad_edge_[v] ? 1 : 0;
     }
-    m.closed = m.boundary_edges == 0;
+    m.closed = m.boundary_edges == 0 && odd_edges_ == 0;
     m.manifold =
         m.non_manifold_edges == 0 && m.non_manifold_vertices == 0 && m.misoriented_edges == 0;
     m.euler_number = m.vertices - m.isolated_vertices - m.edges + faces_;
@@ -236,7 +245,19 @@ class Topology {
   std::vector<std::int64_t> fans_;  ///< per vertex: its corners less the joins among them
   std::vector<bool> on_bad_edge_;
   std::int64_t faces_ = 0;
+  std::int64_t odd_edges_ = 0;  ///< with 3, 5, ... triangles
 };
+
+/// Edges in balance by index are so by position; others may be where vertices are split.
+bool is_balanced(std::span<const Vec3> positions, std::span<const Triangle> triangles,
+                 const Measure& m) {
+  if (m.boundary_edges + m.misoriented_edges + m.unbalanced_edges == 0) {
+    return true;
+  }
+  std::vector<std::uint64_t> keys(positions.size());
+  std::transform(positions.begin(), positions.end(), keys.begin(), detail::position_key);
+  return detail::edge_balance(keys, triangles) == 0;
+}
 
 }  // namespace
 
@@ -249,6 +270,7 @@ Measure measure(std::span<const Vec3> positions, std::span<const Triangle> trian
   measure_box(positions, m);
   measure_extent(positions, triangles, m);
   Topology(positions.size(), triangles).measure(m);
+  m.has_volume = is_balanced(positions, triangles, m);
   return m;
 }
 

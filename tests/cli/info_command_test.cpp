@@ -250,6 +250,36 @@ TEST_CASE("info tells what is wrong with a mesh") {
   CHECK(info_json(folder / "turned.ply")["mesh"]["volume"].is_null());
 }
 
+TEST_CASE("info tells meshes with split vertices from open ones") {
+  const TempFolder folder;
+  const TriangleMesh whole = box_mesh({0, 0, 0}, {1, 2, 3});
+  TriangleMesh split;
+  for (const difmesh::Triangle& t : whole.triangles) {
+    const auto first = static_cast<std::uint32_t>(split.positions.size());
+    for (const std::uint32_t v : t) {
+      split.positions.push_back(whole.positions[v]);
+    }
+    split.triangles.push_back({first, first + 1, first + 2});
+  }
+  const auto path = write_triangles(folder / "split.ply", split);
+  const std::string text = info(path);
+  CHECK(fact(text, "closed") == "no: 36 boundary edges; closed where equal positions are joined");
+  CHECK(std::stod(fact(text, "enclosed volume")) == doctest::Approx(6));
+  const nlohmann::json json = info_json(path)["mesh"];
+  CHECK(json["closed"] == false);
+  CHECK(json["closed_by_position"] == true);
+  CHECK(json["volume"].get<double>() == doctest::Approx(6).epsilon(1e-14));
+
+  TriangleMesh doubled = whole;
+  doubled.triangles.push_back(doubled.triangles[0]);
+  const auto twice = write_triangles(folder / "doubled.ply", doubled);
+  const std::string bad = info(twice);
+  CHECK(fact(bad, "closed") == "no: 3 edges of three triangles or more unbalanced");
+  CHECK(fact(bad, "enclosed volume") == "none, the mesh is not closed");
+  CHECK(info_json(twice)["mesh"]["closed_by_position"] == false);
+  CHECK(info_json(twice)["mesh"]["unbalanced_edges"] == 3);
+}
+
 TEST_CASE("info in JSON goes to the file and nothing is printed") {
   const TempFolder folder;
   const auto mesh = write_triangles(folder / "box.ply", box_mesh({0, 0, 0}, {1, 2, 3}));

@@ -58,12 +58,16 @@ class Measure:
     non_manifold_vertices: int  #: whose triangles are not one fan or one cycle
     degenerate_triangles: int  #: an index twice, or area exactly 0
     euler_number: int  #: V - E + F over the vertices in use
-    closed: bool  #: no boundary edge
+    closed: bool  #: every edge has an even number of triangles
     manifold: bool  #: no non-manifold edge or vertex, no misoriented edge
     area: float
-    volume: float  #: signed; meaningful where closed and well oriented
+    volume: float  #: signed; means something only where has_volume
     low: tuple[float, float, float]  #: bounding box of all positions
     high: tuple[float, float, float]
+    unbalanced_edges: int  #: with more than two triangles, more one way than the other
+    #: Triangles run along every edge as often one way as the other, where vertices at equal
+    #: positions count as one.
+    has_volume: bool
 
 
 @dataclass(frozen=True)

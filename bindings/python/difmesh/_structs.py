@@ -206,6 +206,9 @@ class DifMeasure(Sized):
         ("volume", c_double),
         ("low", c_double * 3),
         ("high", c_double * 3),
+        ("unbalanced_edges", c_int64),
+        ("has_volume", c_int32),
+        ("reserved", c_int32),
     ]
 
 

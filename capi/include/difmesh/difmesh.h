@@ -574,12 +574,16 @@ typedef struct dif_measure {
   int64_t non_manifold_vertices; /* whose triangles are not one fan or one cycle */
   int64_t degenerate_triangles;  /* an index twice, or area exactly 0 */
   int64_t euler_number;          /* V - E + F over the vertices in use */
-  int32_t closed;                /* no boundary edge */
+  int32_t closed;                /* every edge has an even number of triangles */
   int32_t manifold;              /* no non-manifold edge or vertex, no misoriented edge */
   double area;
-  double volume; /* signed; meaningful where closed and well oriented */
+  double volume; /* signed; means something only where has_volume */
   double low[3]; /* bounding box of all positions */
   double high[3];
+  int64_t unbalanced_edges; /* with more than two triangles, more one way than the other */
+  int32_t has_volume;       /* triangles run along every edge as often one way as the other, where
+                             * vertices at equal positions count as one */
+  int32_t reserved;
 } dif_measure;
 
 /* Prepares an output struct. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */

@@ -11,7 +11,8 @@
 namespace difmesh {
 
 /// Facts about a triangle mesh, from its arrays alone. Vertices are told apart by index, never by
-/// position. A triangle with an index twice has no area and no part in the topology: edges,
+/// position,
+/// but for has_volume. A triangle with an index twice has no area and no part in the topology: edges,
 /// components, fans, vertices in use and the Euler number are those of the other triangles.
 struct Measure {
   std::int64_t vertices = 0;  ///< in use or not
@@ -24,15 +25,21 @@ struct Measure {
   std::int64_t misoriented_edges = 0;      ///< with two triangles that run along it the same way
   std::int64_t non_manifold_vertices = 0;  ///< whose triangles are not one fan or one cycle
   std::int64_t degenerate_triangles = 0;   ///< with an index twice or area exactly 0
-  bool closed = true;                      ///< no boundary edge
+  bool closed = true;                      ///< every edge has an even number of triangles
   bool manifold = true;                    ///< no non-manifold edge or vertex, no misoriented edge
   std::int64_t euler_number = 0;           ///< V - E + F over the vertices in use
   double area = 0.0;
   /// Signed, by the divergence theorem about the centre of the bounding box; positive for triangles
-  /// that are counter-clockwise seen from outside. Meaningful where closed and well oriented.
+  /// that are counter-clockwise seen from outside. Means something only where has_volume.
   double volume = 0.0;
   Vec3 low{0, 0, 0};  ///< bounding box of all positions; 0 for no vertices
   Vec3 high{0, 0, 0};
+  /// With more than two triangles, more of which run along it one way than the other.
+  std::int64_t unbalanced_edges = 0;
+  /// The triangles run along every edge as often one way as the other, where vertices at equal
+  /// positions count as one: what fractions_from_mesh() demands too. True of meshes that are closed
+  /// and well oriented, and of those whose vertices are split along edges that would make them so.
+  bool has_volume = true;
 };
 
 /// Measures a mesh.
