@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "difmesh/error.hpp"
 #include "kernels.hpp"
+#include "position_text.hpp"
 
 namespace difmesh::detail {
 namespace {
@@ -217,15 +217,13 @@ void classify_row(const BlockField& field, const RowClassifier<T>& classifier, c
     using T = decltype(type);
     return static_cast<double>(static_cast<const T*>(field.view.data)[field.element(cell)]);
   });
-  std::ostringstream text;
-  text.precision(9);
-  text << "cell (" << cell[0] << ", " << cell[1] << ", " << cell[2] << ") holds " << value;
-  if (std::isfinite(value)) {
-    text << ", further outside [0, 1] than the overshoot bound of " << bound;
-  } else {
-    text << ", which is no fraction";
-  }
-  throw Error(ErrorCode::invalid_value, text.str());
+  std::string text = "cell (";
+  text += std::to_string(cell[0]) + ", " + std::to_string(cell[1]) + ", " +
+          std::to_string(cell[2]) + ") holds " + rounded_text(value);
+  text += std::isfinite(value)
+              ? ", further outside [0, 1] than the overshoot bound of " + rounded_text(bound)
+              : ", which is no fraction";
+  throw Error(ErrorCode::invalid_value, text);
 }
 
 // Sets the bits of the nodes that are not cells of the block.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string>
 
 #include "difmesh/error.hpp"
@@ -37,10 +36,9 @@ void validate_axis(const Grid& grid, int axis) {
                                              "; it must be finite and greater than 0");
   }
   if (spacing < kLeastSpacing || spacing > kGreatestSpacing) {
-    std::ostringstream text;
-    text << "spacing in " << axis_name(axis) << " is " << spacing
-         << "; 2^-300 to 2^300 are possible";
-    throw Error(ErrorCode::invalid_grid, text.str());
+    throw Error(ErrorCode::invalid_grid, "spacing in " + axis_name(axis) + " is " +
+                                             detail::rounded_text(spacing) +
+                                             "; 2^-300 to 2^300 are possible");
   }
   if (!std::isfinite(grid.origin[a])) {
     throw Error(ErrorCode::invalid_grid, "origin in " + axis_name(axis) + " is not finite");

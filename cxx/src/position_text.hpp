@@ -3,18 +3,20 @@
 // namespace.
 
 #include <array>
-#include <cstdio>
+#include <charconv>
 #include <string>
 
 #include "difmesh/grid.hpp"
 
 namespace difmesh::detail {
 
-/// Nine digits: enough to find a place, short enough to read.
+/// Nine digits: enough to find a place, short enough to read. A point before the decimals whatever
+/// the caller's locale, which std::snprintf() and streams follow.
 [[nodiscard]] inline std::string rounded_text(double value) {
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.9g", value);
-  return text.data();
+  const auto result =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 9);
+  return {text.data(), result.ptr};
 }
 
 [[nodiscard]] inline std::string rounded_text(const Vec3& position) {
