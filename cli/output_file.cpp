@@ -18,27 +18,40 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kAttempts = 100;
+constexpr int kMostLinks = 40;  // as many as Linux follows
 
 [[noreturn]] void fail_write(const fs::path& path, int error) {
   throw Error(ErrorCode::file_write,
               "cannot write '" + path.string() + "': " + std::generic_category().message(error));
 }
 
-/// Devices and pipes cannot be replaced by a file beside them, and streams that are open already
-/// must not, even where they lead to a regular file.
-bool is_written_directly(const fs::path& path) {
+/// Names of streams that are already open: what they lead to must not be replaced.
+bool names_open_stream(const fs::path& path) {
   const std::string name = path.lexically_normal().string();
-  struct stat status {};
   return name == "/dev/stdout" || name == "/dev/stderr" || name.starts_with("/dev/fd/") ||
-         name.starts_with("/proc/") ||
-         (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode));
+         name.starts_with("/proc/");
 }
 
-/// The file behind symbolic links: a link stays a link when its file is replaced.
-fs::path behind_links(const fs::path& path) {
+/// The file behind symbolic links, which need not be there yet: a link stays a link when its file is
+/// written. Links among the folders are left to the system; so is an endless chain, which it refuses.
+/// Open streams are links too, which end the way.
+fs::path behind_links(fs::path path) {
   std::error_code error;
-  const fs::path file = fs::canonical(path, error);
-  return error ? path : file;
+  for (int links = 0; links < kMostLinks && !names_open_stream(path); ++links) {
+    const fs::path next = fs::read_symlink(path, error);
+    if (error) {
+      break;
+    }
+    path = path.parent_path() / next;  // `next` alone where that is absolute
+  }
+  return path;
+}
+
+/// Devices and pipes cannot be replaced by a file beside them.
+bool is_written_directly(const fs::path& path) {
+  struct stat status {};
+  return names_open_stream(behind_links(path)) ||
+         (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode));
 }
 
 void check_writable(const fs::path& path) {
@@ -53,6 +66,8 @@ void check_writable(const fs::path& path) {
     if (!S_ISREG(status.st_mode)) {
       return;
     }
+  } else if (errno != ENOENT) {
+    fail_write(path, errno);
   }
   const fs::path folder = behind_links(path).parent_path();
   if (::access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0) {
@@ -65,7 +80,7 @@ bool same_file(const fs::path& a, const fs::path& b) {
   std::error_code error;
   const bool equivalent = fs::equivalent(a, b, error);
   const auto place = [&error](const fs::path& path) {
-    return fs::weakly_canonical(fs::absolute(path, error), error);
+    return fs::weakly_canonical(fs::absolute(behind_links(path), error), error);
   };
   return error ? place(a) == place(b) : equivalent;
 }

@@ -21,6 +21,7 @@ namespace {
 
 constexpr std::size_t kBufferSize = std::size_t{1} << 18;
 constexpr std::size_t kLongestNumber = 32;
+constexpr int kMostLinks = 40;  // as many as Linux follows
 
 /// Names of streams that are already open. They may lead to regular files, which must be appended
 /// to where they stand and not be replaced.
@@ -30,11 +31,19 @@ bool names_open_stream(const std::filesystem::path& path) {
          name.starts_with("/proc/");
 }
 
-/// The file behind symbolic links: a link stays a link when the file is replaced.
-std::filesystem::path behind_links(const std::filesystem::path& path) {
+/// The file behind symbolic links, which need not be there yet: a link stays a link when its file is
+/// written. Links among the folders are left to the system; so is an endless chain, which it refuses.
+/// Open streams are links too, which end the way.
+std::filesystem::path behind_links(std::filesystem::path path) {
   std::error_code error;
-  const std::filesystem::path file = std::filesystem::canonical(path, error);
-  return error ? path : file;
+  for (int links = 0; links < kMostLinks && !names_open_stream(path); ++links) {
+    const std::filesystem::path next = std::filesystem::read_symlink(path, error);
+    if (error) {
+      break;
+    }
+    path = path.parent_path() / next;  // `next` alone where that is absolute
+  }
+  return path;
 }
 
 }  // namespace
@@ -42,12 +51,16 @@ std::filesystem::path behind_links(const std::filesystem::path& path) {
 AtomicFile::AtomicFile(const std::filesystem::path& target)
     : shown_(target), target_(behind_links(target)), buffer_(kBufferSize) {
   struct stat status {};
-  const bool exists = ::stat(shown_.c_str(), &status) == 0;
-  if (names_open_stream(shown_) ||
+  const int obstacle = ::stat(shown_.c_str(), &status) == 0 ? 0 : errno;
+  const bool exists = obstacle == 0;
+  if (names_open_stream(target_) ||
       (exists && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode))) {
     target_ = shown_;
     open_direct();
     return;
+  }
+  if (!exists && obstacle != ENOENT) {
+    fail(obstacle);
   }
   if (exists && S_ISDIR(status.st_mode)) {
     fail(EISDIR);

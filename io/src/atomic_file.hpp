@@ -11,7 +11,8 @@
 namespace difmesh::detail {
 
 /// Writes to a new file beside the target; commit() gives it the target's name. Without commit() it
-/// is removed. A target that is no regular file (a device, a pipe, standard output) is written
+/// is removed. Symbolic links stay and are written through, to a file that is there or not yet: beside
+/// that file is where the new one is made. A target that is no regular file (a device, a pipe, standard output) is written
 /// directly. Against failures of programs and disks, not against loss of power: nothing is forced
 /// to the disk. Every member throws Error file_write, naming the target and the system's reason.
 class AtomicFile {

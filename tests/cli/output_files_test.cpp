@@ -115,6 +115,33 @@ TEST_CASE("a link stays a link and its file is replaced") {
   CHECK(read_bytes(place.folder / "real.json").starts_with("{\n"));
 }
 
+TEST_CASE("links to files that are not there yet stay links") {
+  const Place place;
+  std::filesystem::create_symlink("new.ply", place.mesh);
+  std::filesystem::create_symlink("hop.json", place.report);
+  std::filesystem::create_symlink("new.json", place.folder / "hop.json");
+  check_succeeds(run_program(place.launch()));
+  CHECK(read_bytes(place.folder / "new.ply").starts_with("ply\n"));
+  CHECK(read_bytes(place.folder / "new.json").starts_with("{\n"));
+  for (const char* name : {"mesh.ply", "report.json", "hop.json"}) {
+    CHECK_MESSAGE(std::filesystem::is_symlink(place.folder / name), name);
+  }
+}
+
+TEST_CASE("links that go in circles or to one file are refused before the work starts") {
+  const Place place;
+  const std::string missing = (place.folder / "missing.npy").string();
+  const std::string loop = (place.folder / "loop.ply").string();
+  std::filesystem::create_symlink("loop.ply", loop);
+  check_fails(run_program({"reconstruct", missing, "-o", loop}), 1,
+              {"loop.ply", "Too many levels of symbolic links"});
+  std::filesystem::create_symlink("same", place.mesh);
+  std::filesystem::create_symlink("same", place.report);
+  check_fails(run_program({"reconstruct", missing, "-o", place.mesh, "--report", place.report}), 2,
+              {"report.json", "two things at once"});
+  CHECK(place.folder.names() == Names{"drop.npy", "loop.ply", "mesh.ply", "report.json"});
+}
+
 TEST_CASE("plain names are written to the current folder") {
   const Place place;
   Launch launch;

@@ -88,6 +88,59 @@ TEST_CASE("a replaced file keeps its mode and a link stays a link") {
   CHECK(std::filesystem::status(target).permissions() == std::filesystem::perms{0640});
 }
 
+TEST_CASE("links are written through to files that are there or not yet") {
+  namespace fs = std::filesystem;
+  const TempFolder folder;
+  fs::create_directory(folder / "sub");
+  fs::create_symlink("sub/new.txt", folder / "dangling.txt");
+  fs::create_symlink("dangling.txt", folder / "chain.txt");
+  fs::create_symlink(folder / "sub/absolute.txt", folder / "absolute.txt");
+  fs::create_symlink("sub", folder / "folder_link");
+  fs::create_symlink("../up.txt", folder / "sub/up.txt");
+  const auto write = [&](const char* name, const char* text) {
+    AtomicFile file(folder / name);
+    file.write(text);
+    file.commit();
+  };
+  write("dangling.txt", "one");
+  CHECK(test::read_bytes(folder / "sub/new.txt") == "one");
+  write("chain.txt", "two");  // now to a file that exists
+  CHECK(test::read_bytes(folder / "sub/new.txt") == "two");
+  write("absolute.txt", "three");
+  CHECK(test::read_bytes(folder / "sub/absolute.txt") == "three");
+  write("folder_link/up.txt", "four");
+  CHECK(test::read_bytes(folder / "up.txt") == "four");
+  for (const char* name : {"dangling.txt", "chain.txt", "absolute.txt", "sub/up.txt"}) {
+    CHECK_MESSAGE(fs::is_symlink(folder / name), name);
+  }
+  CHECK(folder.names() == std::vector<std::string>{"absolute.txt", "chain.txt", "dangling.txt",
+                                                   "folder_link", "sub", "up.txt"});
+}
+
+TEST_CASE("links that lead to no place for a file are refused and stay") {
+  namespace fs = std::filesystem;
+  const TempFolder folder;
+  const difmesh::Mesh mesh = large_mesh();
+  fs::create_directory(folder / "sub");
+  fs::create_symlink("b.ply", folder / "a.ply");
+  fs::create_symlink("a.ply", folder / "b.ply");
+  fs::create_symlink("self.ply", folder / "self.ply");
+  fs::create_symlink("none/new.ply", folder / "lost.ply");
+  fs::create_symlink("sub", folder / "sub.ply");
+  const auto refused = [&](const char* name, const char* why) {
+    check_error([&] { difmesh::write_mesh(folder / name, mesh); }, ErrorCode::file_write,
+                {name, why});
+    CHECK_MESSAGE(fs::is_symlink(folder / name), name);
+  };
+  refused("a.ply", "Too many levels of symbolic links");
+  refused("self.ply", "Too many levels of symbolic links");
+  refused("lost.ply", "No such file or directory");
+  refused("sub.ply", "Is a directory");
+  CHECK(fs::is_empty(folder / "sub"));
+  CHECK(folder.names() ==
+        std::vector<std::string>{"a.ply", "b.ply", "lost.ply", "self.ply", "sub", "sub.ply"});
+}
+
 TEST_CASE("a new file has the mode that the umask leaves") {
   const TempFolder folder;
   const mode_t old = ::umask(027);
