@@ -384,6 +384,7 @@ module difmesh_types
     integer(c_int32_t) :: reserved = 0
     real(c_double) :: position_error = 0
     real(c_double) :: local_origin(3) = 0
+    integer(c_int64_t) :: collapsed_triangles = 0
   end type
 
   type, bind(c), public :: dif_mesh_read_options

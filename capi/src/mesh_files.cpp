@@ -165,6 +165,7 @@ dif_mesh_write_report to_report(const difmesh::MeshFileReport& report) {
   result.primitives = report.primitives;
   result.position_bits = report.position_bits;
   result.position_error = report.position_error;
+  result.collapsed_triangles = report.collapsed_triangles;
   std::copy(report.local_origin.begin(), report.local_origin.end(), result.local_origin);
   return result;
 }

@@ -40,18 +40,26 @@ constexpr std::array<KnownFormat, 7> kFormats{{{".ply", MeshFormat::ply},
                                                {".gltf", MeshFormat::gltf},
                                                {".drc", MeshFormat::drc}}};
 
-/// The most that float32 changes a coordinate of a triangle.
-double largest_rounding(const Mesh& mesh) {
-  double largest = 0.0;
+bool has_corner_twice(const std::array<Vec3, 3>& corners) {
+  return corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
+}
+
+/// What float32 does to the triangles.
+void report_rounding(const Mesh& mesh, MeshFileReport& report) {
   for (const Triangle& triangle : mesh.triangles) {
-    for (const std::uint32_t v : triangle) {
-      for (const double coordinate : mesh.positions[v]) {
-        const auto rounded = static_cast<double>(static_cast<float>(coordinate));
-        largest = std::max(largest, std::abs(coordinate - rounded));
+    std::array<Vec3, 3> exact{};
+    std::array<Vec3, 3> rounded{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      exact[c] = mesh.positions[triangle[c]];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        rounded[c][axis] = static_cast<double>(static_cast<float>(exact[c][axis]));
+        report.position_error =
+            std::max(report.position_error, std::abs(exact[c][axis] - rounded[c][axis]));
       }
     }
+    const bool collapsed = has_corner_twice(rounded) && !has_corner_twice(exact);
+    report.collapsed_triangles += collapsed ? 1 : 0;
   }
-  return largest;
 }
 
 MeshFileReport write_tables(const std::filesystem::path& path, const Mesh& mesh,
@@ -84,12 +92,15 @@ MeshFileReport write_tables(const std::filesystem::path& path, const Mesh& mesh,
       break;
   }
   file.commit();
-  return {.bytes = file.size(),
-          .vertices =
-              static_cast<std::int64_t>(stl ? 3 * mesh.triangles.size() : mesh.positions.size()),
-          .triangles = static_cast<std::int64_t>(mesh.triangles.size()),
-          .primitives = 1,
-          .position_error = stl ? largest_rounding(mesh) : 0.0};
+  MeshFileReport report{.bytes = file.size(),
+                        .vertices = static_cast<std::int64_t>(stl ? 3 * mesh.triangles.size()
+                                                                  : mesh.positions.size()),
+                        .triangles = static_cast<std::int64_t>(mesh.triangles.size()),
+                        .primitives = 1};
+  if (stl) {
+    report_rounding(mesh, report);
+  }
+  return report;
 }
 
 ScalarMesh read_tables(const std::filesystem::path& path, MeshFormat format) {

@@ -217,6 +217,20 @@ TEST_CASE("copies of a mesh go where strides say and nowhere else") {
         DIF_ERROR_TOO_LARGE);
 }
 
+TEST_CASE("a face twice leaves a mesh without volume") {
+  const double points[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const std::uint32_t corners[] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3, 1, 2, 3};
+  dif_mesh* mesh = nullptr;
+  REQUIRE(dif_mesh_from_arrays(points, 4, corners, 5, &mesh) == DIF_OK);
+  const test::MeshHandle handle(mesh);
+  const dif_measure facts = test::measured(mesh);
+  CHECK(facts.closed == 0);
+  CHECK(facts.has_volume == 0);
+  CHECK(facts.unbalanced_edges == 3);
+  CHECK(facts.non_manifold_edges == 3);
+  CHECK(facts.reserved == 0);
+}
+
 TEST_CASE("meshes from arrays are measured as the core does") {
   const Mesh mesh = difmesh::reconstruct(test::blob(kGrid.dims).view(), kGrid).mesh;
   dif_mesh* made = nullptr;
@@ -236,6 +250,8 @@ TEST_CASE("meshes from arrays are measured as the core does") {
   CHECK(facts.boundary_edges == 0);
   CHECK(facts.closed == 1);
   CHECK(facts.manifold == 1);
+  CHECK(facts.unbalanced_edges == 0);
+  CHECK(facts.has_volume == 1);
   CHECK(facts.area == expected.area);
   CHECK(facts.volume == expected.volume);
   CHECK(std::equal(expected.low.begin(), expected.low.end(), facts.low));

@@ -98,6 +98,7 @@ TEST_CASE("a report tells what is in tables of numbers") {
     CHECK(report.primitives == 1);
     CHECK(report.position_bits == 0);
     CHECK(report.reserved == 0);
+    CHECK(report.collapsed_triangles == 0);
     CHECK(std::ranges::all_of(report.local_origin, [](double x) { return x == 0.0; }));
     if (stl) {
       const std::string bytes = ::test::read_bytes(folder / name);

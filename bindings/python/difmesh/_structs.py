@@ -328,6 +328,7 @@ class DifMeshWriteReport(Sized):
         ("reserved", c_int32),
         ("position_error", c_double),
         ("local_origin", c_double * 3),
+        ("collapsed_triangles", c_int64),
     ]
 
 

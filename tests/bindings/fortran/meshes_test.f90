@@ -32,6 +32,7 @@ contains
     call expect_near(facts%volume, 1/6d0, 1d-15, 'volume of a tetrahedron')
     call expect_near(facts%area, 1.5d0 + sqrt(3d0)/2, 1d-15, 'its area')
     call expect(facts%closed == 1 .and. facts%euler_number == 2, 'it is closed')
+    call expect(facts%has_volume == 1 .and. facts%unbalanced_edges == 0, 'it has a volume')
 
     copy = mesh
     many(1) = copy
@@ -242,6 +243,7 @@ contains
     call expect(report%triangles == mesh%triangle_count(), 'the triangles of a file')
     call expect(report%position_bits == 0, 'no bits')
     call expect_near(report%position_error, 0d0, 0d0, 'no error')
+    call expect(report%collapsed_triangles == 0, 'no triangle collapses')
     call mesh%write('no/such/folder.ply', status, report=report)
     call expect(status == dif_error_file_write .and. report%bytes == 0, 'nothing was written')
     call again%read('meshes_test.ply', status)

@@ -140,6 +140,13 @@ class Arrays(unittest.TestCase):
         self.assertIs(measure.manifold, True)
         self.assertEqual((measure.area, measure.volume), (6, 1))
         self.assertEqual((measure.low, measure.high), ((0, 0, 0), (1, 1, 1)))
+        self.assertIs(measure.has_volume, True)
+        points, faces = map(np.array, CUBE)
+        doubled = difmesh.Mesh(points, np.vstack([faces, faces[:1]])).measure()
+        self.assertEqual((doubled.closed, doubled.has_volume), (False, False))
+        self.assertEqual(doubled.unbalanced_edges, 3)
+        split = difmesh.Mesh(points[faces].reshape(-1, 3), np.arange(36).reshape(-1, 3))
+        self.assertEqual((split.measure().closed, split.measure().has_volume), (False, True))
 
     def test_any_layout_is_copied(self):
         points, faces = map(np.array, CUBE)
@@ -267,6 +274,7 @@ class Files(unittest.TestCase):
                 difmesh.WriteReport(
                     bytes=0, vertices=len(mesh.points), triangles=len(mesh.faces), primitives=1,
                     position_bits=0, position_error=0.0, local_origin=(0.0, 0.0, 0.0),
+                    collapsed_triangles=0,
                 ),
             )  # fmt: skip
         report = self.saved(mesh, "ball.stl")
@@ -274,8 +282,17 @@ class Files(unittest.TestCase):
         rounded = mesh.points.astype(np.float32).astype(np.float64)
         self.assertGreater(report.position_error, 0)
         self.assertEqual(report.position_error, np.abs(rounded - mesh.points).max())
+        self.assertEqual(report.collapsed_triangles, 0)
         with self.assertRaises(dataclasses.FrozenInstanceError):
             report.bytes = 1
+
+    def test_triangles_collapse_in_stl_far_away(self):
+        mesh = difmesh.reconstruct(smooth_ball(), spacing=0.01, origin=(5e5, 5.4e6, 300))
+        rounded = mesh.points.astype(np.float32)[mesh.faces]
+        same = [(rounded[:, a] == rounded[:, b]).all(axis=1) for a, b in ((0, 1), (1, 2), (2, 0))]
+        report = self.saved(mesh, "far.stl")
+        self.assertGreater(report.collapsed_triangles, 100)
+        self.assertEqual(report.collapsed_triangles, np.count_nonzero(np.any(same, axis=0)))
 
     def need(self, *parts):
         for part in parts:
