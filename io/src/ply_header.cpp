@@ -10,7 +10,7 @@ namespace difmesh::detail {
 namespace {
 
 std::optional<PlyType> type_named(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, PlyType>, 16> names{{
+  constexpr std::array<std::pair<std::string_view, PlyType>, 18> names{{
       {"char", PlyType::int8},
       {"int8", PlyType::int8},
       {"uchar", PlyType::uint8},
@@ -23,6 +23,8 @@ std::optional<PlyType> type_named(std::string_view name) {
       {"int32", PlyType::int32},
       {"uint", PlyType::uint32},
       {"uint32", PlyType::uint32},
+      {"int64", PlyType::int64},
+      {"uint64", PlyType::uint64},
       {"float", PlyType::float32},
       {"float32", PlyType::float32},
       {"double", PlyType::float64},
@@ -36,7 +38,7 @@ std::optional<PlyType> type_named(std::string_view name) {
 class PlyHeaderParser {
  public:
   PlyHeaderParser(const std::filesystem::path& path, std::string_view text)
-      : path_(path), text_(text) {}
+      : path_(path), text_(text), line_end_(line_end(text)) {}
 
   PlyHeader parse() {
     if (!next_line() || words_.size() != 1 || words_[0] != "ply") {
@@ -74,11 +76,19 @@ class PlyHeaderParser {
     fail_format(path_, "line " + std::to_string(line_number_) + ": " + matter);
   }
 
+  /// What ends the first line ends all: binary data may begin with a line feed.
+  static char line_end(std::string_view text) {
+    const std::size_t end = text.find_first_of("\r\n");
+    const bool is_return =
+        end != std::string_view::npos && text[end] == '\r' && text.substr(end + 1, 1) != "\n";
+    return is_return ? '\r' : '\n';
+  }
+
   bool next_line() {
     if (at_ >= text_.size()) {
       return false;
     }
-    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+    const std::size_t end = std::min(text_.find(line_end_, at_), text_.size());
     words_ = words_of(text_.substr(at_, end - at_));
     at_ = std::min(end + 1, text_.size());
     ++line_number_;
@@ -130,6 +140,7 @@ class PlyHeaderParser {
 
   const std::filesystem::path& path_;
   std::string_view text_;
+  char line_end_;
   std::size_t at_ = 0;
   std::int64_t line_number_ = 0;
   std::vector<std::string_view> words_;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "mesh_formats.hpp"
 #include "scanner.hpp"
 #include "text.hpp"
+#include "warnings.hpp"
 
 namespace difmesh::detail {
 namespace {
@@ -86,8 +88,7 @@ std::uint32_t little_endian(const char* bytes) {
   return value;
 }
 
-Mesh read_binary(const std::filesystem::path& path, std::string_view bytes) {
-  const std::size_t count = (bytes.size() - kHeader) / kRecord;
+Mesh read_binary(const std::filesystem::path& path, std::string_view bytes, std::size_t count) {
   Mesh mesh;
   mesh.triangles.resize(count);
   Welder welder(path);
@@ -108,36 +109,152 @@ Mesh read_binary(const std::filesystem::path& path, std::string_view bytes) {
   return mesh;
 }
 
-/// Reads the lines `vertex x y z`, three to an `outer loop`; normals and names do not count.
-Mesh read_text(const std::filesystem::path& path, std::string_view text) {
-  Scanner lines(path, text, {});
-  Mesh mesh;
-  Welder welder(path);
-  std::vector<std::uint32_t> corners;
-  bool ended = false;
-  while (lines.next_line()) {
-    const std::string keyword = lower_case(lines.word());
-    if (keyword == "vertex") {
-      const double x = lines.number("a coordinate");
-      const double y = lines.number("a coordinate");
-      corners.push_back(welder.index_of({x, y, lines.number("a coordinate")}));
-    } else if (keyword == "endloop") {
-      if (corners.size() != 3) {
-        lines.fail("a facet with " + std::to_string(corners.size()) + " corners");
+enum class Word : std::uint8_t { solid, end_solid, facet, end_facet, loop, end_loop, vertex, none };
+
+/// Reads the words `vertex x y z`, three to each loop, in any layout of lines. Of what else stands in
+/// a line (normals, names, numbers behind a vertex) nothing counts, but a line starts with a word of
+/// STL. `end loop`, `endsolidname` and solids without end are as common as what they stand for.
+class TextReader {
+ public:
+  TextReader(const std::filesystem::path& path, std::string_view text)
+      : path_(path), lines_(path, text, {}), welder_(path) {}
+
+  ScalarMesh read() {
+    while (lines_.next_line()) {
+      bool is_first = true;
+      for (auto word = lines_.word(); !word.empty(); word = lines_.word()) {
+        // Numbers are passed over without a second look: every facet has a normal.
+        const Word known = word[0] < 'A' ? Word::none : word_of(lower_case(word));
+        if (known == Word::none && is_first) {
+          lines_.fail(in_quotes(word) + " is no word of STL");
+        }
+        take(known);
+        is_first = false;
       }
-      append_fan(mesh.triangles, corners);
-      corners.clear();
-    } else if (keyword != "solid" && keyword != "facet" && keyword != "outer" &&
-               keyword != "endfacet" && keyword != "endsolid") {
-      lines.fail(in_quotes(keyword.substr(0, 40)) + " is no word of STL");
     }
-    ended = keyword == "endsolid";
+    finish();
+    result_.mesh.positions = welder_.take();
+    return std::move(result_);
   }
-  if (!ended) {
-    fail_format(path, "truncated: no endsolid ends the STL text");
+
+ private:
+  Word word_of(const std::string& word) {
+    if (word == "vertex") {
+      return Word::vertex;
+    }
+    if (word == "facet") {
+      return Word::facet;
+    }
+    if (word == "outer" || word == "loop") {
+      return Word::loop;
+    }
+    const bool is_end = word.starts_with("end");
+    const std::string what = !is_end         ? word
+                             : word == "end" ? lower_case(lines_.word())
+                                             : word.substr(3);
+    if (what.starts_with("solid")) {
+      return is_end ? Word::end_solid : Word::solid;
+    }
+    if (!is_end) {
+      return Word::none;
+    }
+    return what == "loop" ? Word::end_loop : what == "facet" ? Word::end_facet : Word::none;
   }
-  mesh.positions = welder.take();
-  return mesh;
+
+  void take(Word word) {
+    switch (word) {
+      case Word::solid:
+      case Word::end_solid:
+        check_no_facet_is_open();
+        skip_name();
+        is_ended_ = word == Word::end_solid;
+        return;
+      case Word::facet:
+        check_no_facet_is_open();
+        is_facet_open_ = true;
+        is_ended_ = false;
+        return;
+      case Word::end_facet:
+        check_no_facet_is_open();
+        return;
+      case Word::vertex:
+        vertex();
+        return;
+      case Word::end_loop:
+        end_loop();
+        return;
+      case Word::loop:
+      case Word::none:
+        return;
+    }
+  }
+
+  void vertex() {
+    const double x = lines_.number("a coordinate");
+    const double y = lines_.number("a coordinate");
+    const double z = lines_.number("a coordinate");
+    if (corners_ < 3) {
+      triangle_[corners_] = welder_.index_of({x, y, z});
+    }
+    ++corners_;
+    is_ended_ = false;
+  }
+
+  void end_loop() {
+    if (corners_ != 3) {
+      lines_.fail("a facet with " + std::to_string(corners_) + " corners");
+    }
+    result_.mesh.triangles.push_back(triangle_);
+    corners_ = 0;
+    is_facet_open_ = false;
+  }
+
+  void check_no_facet_is_open() const {
+    if (corners_ > 0 || is_facet_open_) {
+      lines_.fail("the facet before has no endloop");
+    }
+  }
+
+  /// Up to the end of the line, or to the first facet where a file has no lines.
+  void skip_name() {
+    while (!lines_.rest().empty()) {
+      const std::string_view rest = trimmed(lines_.rest());
+      if (lower_case(rest.substr(0, 6)) == "facet " &&
+          lower_case(trimmed(rest.substr(6)).substr(0, 6)) == "normal") {
+        return;
+      }
+      (void)lines_.word();
+    }
+  }
+
+  void finish() {
+    if (corners_ > 0 || is_facet_open_) {
+      fail_format(path_, "truncated: the last facet of the STL text does not end");
+    }
+    if (!is_ended_ && result_.mesh.triangles.empty()) {
+      fail_format(path_, "truncated: neither facets nor endsolid in the STL text");
+    }
+    if (!is_ended_) {
+      add_warning(result_.warnings, path_,
+                  "no endsolid ends the STL text: it may have been cut off");
+    }
+  }
+
+  const std::filesystem::path& path_;
+  Scanner lines_;
+  Welder welder_;
+  ScalarMesh result_;
+  Triangle triangle_{};         ///< the corners since the last loop
+  std::size_t corners_ = 0;     ///< how many
+  bool is_facet_open_ = false;  ///< its loop has not ended
+  bool is_ended_ = false;       ///< by endsolid
+};
+
+/// Binary files may start with "solid" too, but have zeros in their header or number of triangles.
+bool is_text(std::string_view text) {
+  const std::size_t start = std::min(text.find_first_not_of(" \t\r\n\v\f"), text.size());
+  return lower_case(text.substr(start, 5)) == "solid" &&
+         text.substr(0, kHeader).find('\0') == std::string_view::npos;
 }
 
 }  // namespace
@@ -145,23 +262,28 @@ Mesh read_text(const std::filesystem::path& path, std::string_view text) {
 ScalarMesh read_stl(const InputFile& file) {
   const Array<char> bytes = file.read_text(0, file.size());
   const std::string_view text(bytes.data(), bytes.size());
-  // Binary files may start with "solid" too, so their size decides.
   const std::uint64_t count = text.size() >= kHeader ? little_endian(text.data() + 80) : 0;
-  if (text.size() >= kHeader && text.size() == kHeader + kRecord * count) {
-    return {read_binary(file.path(), text), {}};
-  }
+  const std::uint64_t size = kHeader + kRecord * count;
   const std::string_view plain = text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
-  const std::string_view start = trimmed(plain.substr(0, 80));
-  if (lower_case(start.substr(0, 5)) == "solid") {
-    return {read_text(file.path(), plain), {}};
+  // The size is surer than how a file starts.
+  if (text.size() != size && is_text(plain)) {
+    return TextReader(file.path(), plain).read();
   }
   if (text.size() < kHeader) {
     fail_format(file.path(), "no STL file: " + std::to_string(text.size()) +
                                  " bytes that do not start with solid");
   }
-  fail_format(file.path(), "truncated or no STL file: " + std::to_string(count) +
-                               " triangles are " + std::to_string(kHeader + kRecord * count) +
-                               " bytes, " + std::to_string(text.size()) + " found");
+  if (text.size() < size || (count == 0 && text.size() >= size + kRecord)) {
+    fail_format(file.path(), "truncated or no STL file: " + std::to_string(count) +
+                                 " triangles are " + std::to_string(size) + " bytes, " +
+                                 std::to_string(text.size()) + " found");
+  }
+  ScalarMesh result{read_binary(file.path(), text, count), {}};
+  if (text.size() > size) {
+    add_warning(result.warnings, file.path(),
+                count_of(text.size() - size, "byte") + " behind the last triangle left out");
+  }
+  return result;
 }
 
 }  // namespace difmesh::detail

@@ -143,17 +143,12 @@ TEST_CASE("ply: what is wrong with the header is told with its line") {
   check_refused("m.ply",
                 ply("ascii", "element vertex 0\n" + kXyz + "element vertex 0\n" + kXyz, ""),
                 {"two elements"});
-  check_refused("m.ply",
-                ply("ascii", "element face 0\n" + kCorners + "element vertex 0\n" + kXyz, ""),
-                {"before the vertices"});
   check_refused(
       "m.ply",
       ply("ascii", "element vertex 0\n" + kXyz + "element face 1\nproperty int a\n", "1\n"),
       {"vertex_indices"});
-  check_refused(
-      "m.ply",
-      ply("ascii", "element vertex 0\n" + kXyz + "element tristrips 1\n" + kCorners, "0\n"),
-      {"strips"});
+  check_refused("m.ply", ply("ascii", "element vertex 0\n" + kXyz + "element tristrips 1\n", "0\n"),
+                {"'tristrips'", "vertex_indices"});
 }
 
 TEST_CASE("ply: what is wrong with the data is told with its place") {
@@ -211,7 +206,8 @@ TEST_CASE("stl: what is wrong is told with numbers or the line") {
   check_refused("m.stl", facet + "endloop\nendfacet\nendsolid\n", {"line 6", "2 corners"});
   check_refused("m.stl", facet + "vertex 0 1\nendloop\nendfacet\nendsolid\n",
                 {"line 6", "missing"});
-  check_refused("m.stl", facet + "vertex 0 1 0\nendloop\nendfacet\n", {"truncated", "endsolid"});
+  check_refused("m.stl", facet + "vertex 0 1 0\nendfacet\nendsolid\n", {"line 7", "endloop"});
+  check_refused("m.stl", facet + "vertex 0 1 0\n", {"truncated"});
   check_refused("m.stl", facet + "nonsense\n", {"line 6", "'nonsense'"});
 }
 

@@ -38,7 +38,8 @@ struct WriteMeshOptions {
 };
 
 /// Writes a mesh. The file appears under its name when it is complete and not before; on failure
-/// nothing is left and an older file stays as it was. Targets that are no regular files, such as
+/// nothing is left and an older file stays as it was. Symbolic links are followed, to files that are
+/// there or not yet, and stay. Targets that are no regular files, such as
 /// /dev/stdout, are written directly. Numbers in text are as short as they can be and still be read
 /// as the same float64.
 /// \throw Error invalid_argument if an index is out of range, normals or edge_ids are neither empty
@@ -58,7 +59,8 @@ MeshFileReport write_mesh(const std::filesystem::path& path, const Mesh& mesh,
 /// What is not finite and the surface does without is left out: vertices that no triangle uses (those
 /// behind them move up), and all normals if one is bad. Text may start with a byte order mark, and
 /// its lines end with a line feed, a carriage return or both.
-/// - PLY, text or binary of either byte order: other elements are skipped.
+/// - PLY, text or binary of either byte order: faces and triangle strips, before or after the vertices,
+///   whose list of integers may have any name where there is but one; other elements are skipped.
 /// - OBJ: normals are taken where every corner `v//n` has n = v; groups, materials, texture
 ///   coordinates, weights, colours, lines, points and free forms are skipped. Indices may be
 ///   negative; faces may come before their vertices. A file without a vertex is an empty mesh only
@@ -67,7 +69,8 @@ MeshFileReport write_mesh(const std::filesystem::path& path, const Mesh& mesh,
 ///   and texture coordinates are skipped. Vertices and faces stand in lines of their own, or run
 ///   across lines, as long as the whole file fits.
 /// - STL, text or binary: corners with equal coordinates become one vertex, in the order of their
-///   first appearance; triangles that lose a corner this way are kept.
+///   first appearance; triangles that lose a corner this way are kept. All solids become one mesh.
+///   Text without `endsolid` and bytes behind the triangles of a binary file are warned of.
 /// \throw Error file_missing if the file cannot be opened; file_format if it is malformed,
 ///   truncated, of a kind not supported or of an unknown extension, an index is out of range, a
 ///   vertex of a triangle not finite; too_large beyond 2^32 - 1 vertices; OutOfMemory. The message

@@ -1,0 +1,241 @@
+// STL as other programs write it. Unless a test says otherwise its file is a cube of side 2 from
+// (1, 1, 1) on: closed, 8 vertices, area 24, volume 8.
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include "difmesh/io/mesh_file.hpp"
+#include "difmesh/measure.hpp"
+#include "io/files.hpp"
+
+namespace {
+
+using difmesh::ErrorCode;
+using difmesh::Measure;
+using difmesh::ScalarMesh;
+using test::check_error;
+using test::TempFolder;
+
+/// Corners x + 2 y + 4 z of the cube, counter-clockwise seen from outside.
+constexpr std::array<std::array<int, 3>, 12> kFacets{{{0, 2, 1},
+                                                      {1, 2, 3},
+                                                      {4, 5, 6},
+                                                      {5, 7, 6},
+                                                      {0, 1, 4},
+                                                      {1, 5, 4},
+                                                      {2, 6, 3},
+                                                      {3, 6, 7},
+                                                      {0, 4, 2},
+                                                      {2, 4, 6},
+                                                      {1, 3, 5},
+                                                      {3, 7, 5}}};
+
+int coordinate(int corner, int axis) {
+  return (corner >> axis & 1) != 0 ? 3 : 1;
+}
+
+/// How a program writes text.
+struct Dialect {
+  std::string start = "solid cube\n";
+  std::string facet = "facet normal 0 0 1\n";
+  std::string loop = "outer loop\n";
+  std::string vertex = "vertex ";
+  std::string end_of_vertex = "\n";
+  std::string end_loop = "endloop\n";
+  std::string end_facet = "endfacet\n";
+  std::string end = "endsolid cube\n";
+};
+
+std::string stl(const Dialect& d, std::size_t first = 0, std::size_t last = 12) {
+  std::string text = d.start;
+  for (std::size_t f = first; f < last; ++f) {
+    text += d.facet + d.loop;
+    for (const int corner : kFacets[f]) {
+      text += d.vertex;
+      for (int axis = 0; axis < 3; ++axis) {
+        text += std::to_string(coordinate(corner, axis)) + (axis < 2 ? " " : "");
+      }
+      text += d.end_of_vertex;
+    }
+    text += d.end_loop + d.end_facet;
+  }
+  return text + d.end;
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  for (std::size_t at = text.find(what); at != std::string::npos;
+       at = text.find(what, at + by.size())) {
+    text.replace(at, what.size(), by);
+  }
+  return text;
+}
+
+std::string binary(const std::string& header, std::uint32_t count) {
+  std::string bytes = header;
+  bytes.resize(80, '\0');
+  bytes += test::bytes_of(count);
+  for (const auto& facet : kFacets) {
+    bytes += std::string(12, '\0');
+    for (const int corner : facet) {
+      for (int axis = 0; axis < 3; ++axis) {
+        bytes += test::bytes_of(static_cast<float>(coordinate(corner, axis)));
+      }
+    }
+    bytes += std::string(2, '\0');
+  }
+  return bytes;
+}
+
+ScalarMesh read(const std::string& bytes) {
+  const TempFolder folder;
+  return difmesh::read_scalar_mesh(folder.file("m.stl", bytes));
+}
+
+void check_cube(const ScalarMesh& read) {
+  const Measure m = difmesh::measure(read.mesh);
+  CHECK(m.triangles == 12);
+  CHECK(m.vertices == 8);
+  CHECK(m.closed);
+  CHECK(m.manifold);
+  CHECK(m.area == doctest::Approx(24.0).epsilon(1e-15));
+  CHECK(m.volume == doctest::Approx(8.0).epsilon(1e-15));
+}
+
+void check_silent_cube(const std::string& bytes) {
+  CAPTURE(bytes);
+  const ScalarMesh mesh = read(bytes);
+  check_cube(mesh);
+  CHECK(mesh.warnings.empty());
+}
+
+void check_warned_cube(const std::string& bytes, const std::string& word) {
+  CAPTURE(bytes);
+  const ScalarMesh mesh = read(bytes);
+  check_cube(mesh);
+  REQUIRE(mesh.warnings.size() == 1);
+  CAPTURE(mesh.warnings[0]);
+  CHECK(mesh.warnings[0].find("m.stl") != std::string::npos);
+  CHECK(mesh.warnings[0].find(word) != std::string::npos);
+}
+
+void check_refused(const std::string& bytes, std::initializer_list<std::string> words) {
+  CAPTURE(bytes);
+  check_error([&] { (void)read(bytes); }, ErrorCode::file_format, words);
+}
+
+}  // namespace
+
+TEST_CASE("stl text is read however its words are set") {
+  check_silent_cube(stl({}));
+  check_silent_cube(stl({.end_loop = "end loop\n"}));
+  check_silent_cube(stl({.end_facet = "end facet\n"}));
+  check_silent_cube(stl({.end = "end solid cube\n"}));
+  check_silent_cube(stl({.end = "endsolidcube\n"}));
+  check_silent_cube(stl({.end = "endsolid"}));
+  check_silent_cube(stl({.start = "solid\n"}));
+  check_silent_cube(stl({.start = "solidcube\n"}));
+  check_silent_cube(stl({.start = "solid facet vertex endloop facet, normal\n"}));
+  check_silent_cube(stl({.facet = "facet\n", .loop = "loop\n"}));
+  check_silent_cube(stl({.facet = "facet normal nan -inf 0\n"}));
+  check_silent_cube(stl({.facet = "\t facet normal 0 0 1\n\n", .end_loop = "  endloop \n"}));
+  check_silent_cube(stl({.end_of_vertex = " 255 0 0\n"}));
+  check_silent_cube(stl({.start = "SOLID CUBE\n",
+                         .facet = "FACET NORMAL 0 0 1\n",
+                         .loop = "OUTER LOOP\n",
+                         .vertex = "VERTEX ",
+                         .end_loop = "END LOOP\n",
+                         .end_facet = "ENDFACET\n",
+                         .end = "ENDSOLID CUBE\n"}));
+  check_silent_cube(std::string(500, ' ') + "\n\n" + stl({}));
+  check_silent_cube("\xEF\xBB\xBF" + stl({}));
+}
+
+TEST_CASE("stl text is read whatever ends its lines") {
+  check_silent_cube(replaced(stl({}), "\n", "\r\n"));
+  check_silent_cube(replaced(stl({}), "\n", "\r"));
+  check_silent_cube(replaced(stl({.start = "solid\n", .end = "endsolid\n"}), "\n", " "));
+  check_silent_cube(
+      replaced(stl({.start = "solid a name\n", .end_loop = "end loop\n"}), "\n", "  "));
+  check_silent_cube(replaced(stl({.facet = "Facet  Normal 0 0 1\n"}), "\n", "\t"));
+}
+
+TEST_CASE("solids of an stl text are one mesh") {
+  check_silent_cube(stl({}, 0, 5) + stl({.start = "solid b\n", .end = "endsolid b\n"}, 5, 12));
+  check_silent_cube(stl({.end = ""}, 0, 5) + stl({.start = "solid b\n"}, 5, 12));
+  check_silent_cube(stl({}, 0, 0) + stl({}));
+}
+
+TEST_CASE("stl text without endsolid is read with a warning") {
+  check_warned_cube(stl({.end = ""}), "no endsolid");
+  check_warned_cube(stl({.end_facet = "", .end = ""}), "no endsolid");
+  check_warned_cube(stl({}, 0, 7) + stl({.start = "", .end = ""}, 7, 12), "no endsolid");
+}
+
+TEST_CASE("no triangle of an stl text is lost in silence") {
+  const std::string whole = stl({});
+  // Without the word that ends the third loop, and its kin.
+  std::size_t at = 0;
+  for (int n = 0; n < 3; ++n) {
+    at = whole.find("endloop\n", at + 1);
+  }
+  std::string broken = whole;
+  check_refused(broken.erase(at, 8), {"line 21", "no endloop"});
+  check_refused(replaced(whole, "endloop\n", ""), {"line 7", "no endloop"});
+  check_refused(stl({.end_loop = "", .end_facet = "", .end = ""}, 0, 1), {"truncated"});
+  check_refused(stl({.end_loop = "", .end_facet = ""}, 0, 1), {"line 7", "no endloop"});
+  check_refused(stl({.end_loop = "", .end_facet = ""}, 0, 2), {"line 7", "no endloop"});
+  check_refused(stl({.end = "facet normal 0 0 1\n"}), {"truncated"});
+  check_refused(stl({.end = "facet normal 0 0 1\nendfacet\nendsolid\n"}), {"no endloop"});
+  check_refused(stl({.vertex = "vertex 1 2 3\nvertex "}), {"6 corners"});
+  check_refused(stl({.vertex = "point "}), {"line 4", "'point'"});
+  check_refused("solid cube\n", {"truncated"});
+  check_refused("solid", {"truncated"});
+  check_refused(replaced(whole, "3", "3,5"), {"'3,5'"});
+  // Cut off anywhere it is an error, or warned of.
+  for (std::size_t length = 0; length + 12 < whole.size(); ++length) {
+    CAPTURE(length);
+    try {
+      const ScalarMesh part = read(whole.substr(0, length));
+      CHECK(part.warnings.size() == 1);
+    } catch (const difmesh::Error& error) {
+      CHECK(error.code() == ErrorCode::file_format);
+    }
+  }
+}
+
+TEST_CASE("bytes behind binary stl are left out with a warning") {
+  check_silent_cube(binary("", 12));
+  check_warned_cube(binary("", 12) + "\n", "1 byte behind");
+  check_warned_cube(binary("other program", 12) + std::string(777, 'x'), "777 bytes behind");
+}
+
+TEST_CASE("binary stl may start with solid") {
+  check_silent_cube(binary("solid", 12));
+  check_silent_cube(binary(std::string("solid cube") + std::string(70, ' '), 12));
+  check_warned_cube(binary(std::string("solid cube") + std::string(70, ' '), 12) + "tail",
+                    "4 bytes");
+}
+
+TEST_CASE("binary stl that is cut off or does not say its size is refused") {
+  const std::string whole = binary("", 12);
+  check_refused(whole.substr(0, whole.size() - 1), {"12 triangles are 684 bytes", "683 found"});
+  check_refused(binary("solid", 13), {"13 triangles", "684 found"});
+  check_refused(binary("", 0), {"0 triangles", "684 found"});
+}
+
+TEST_CASE("stl tells which triangles float32 makes collapse") {
+  const TempFolder folder;
+  difmesh::Mesh mesh;
+  // Ulps of float32 at 500,000 are 1/32: the first two corners meet, the third stays apart.
+  mesh.positions = {{500000.0, 0, 0},    {500000.01, 0, 0}, {500000.0, 1, 0},
+                    {500000.0, 0, 0.01}, {500001.0, 0, 0},  {500000.012, 0.0, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 3, 2}, {0, 4, 2}, {0, 1, 5}, {0, 0, 1}};
+  const difmesh::MeshFileReport report = difmesh::write_mesh(folder / "m.stl", mesh);
+  CHECK(report.collapsed_triangles == 2);  // the first and the fourth; the last one had no area
+  CHECK(report.position_error == 500000.012 - 500000.0);
+  CHECK(difmesh::write_mesh(folder / "m.ply", mesh).collapsed_triangles == 0);
+  const Measure back = difmesh::measure(difmesh::read_mesh(folder / "m.stl"));
+  CHECK(back.degenerate_triangles == 3);
+}
