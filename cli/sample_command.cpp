@@ -36,7 +36,7 @@ constexpr const char* kDescription =
     "\n"
     "The body is sphere, ellipsoid, torus, genus, smooth_box or golf_ball, by quadrature to 1e-10 "
     "per\n"
-    "cell; or a mesh file, exactly. Its grid is its\n"
+    "cell; or a mesh file, exactly, its parts united where they overlap. Its grid is its\n"
     "bounding box and three cells more on every side. FIELD is .nrrd, which holds origin and "
     "spacing,\n"
     "or .npy, which does not: they are printed.\n";
@@ -51,6 +51,9 @@ constexpr const char* kFooter =
 /// Extensions that fields can be written with.
 constexpr std::array<std::string_view, 2> kWritten{".npy", ".nrrd"};
 
+constexpr std::array<Named<Overlaps>, 3> kOverlaps{
+    {{"union", Overlaps::unite}, {"refuse", Overlaps::refuse}, {"count", Overlaps::count}}};
+
 constexpr std::array<Named<ScalarType>, 2> kTypes{
     {{"float32", ScalarType::float32}, {"float64", ScalarType::float64}}};
 
@@ -62,6 +65,7 @@ struct Request {
   bool flip = false;
   bool allow_outside = false;
   std::optional<double> cracks;  ///< as a share of a column's cross-section
+  std::optional<Overlaps> overlaps;
   ScalarType type = ScalarType::float64;
   int threads = 0;
   bool quiet = false;
@@ -75,6 +79,8 @@ struct Sample {
   double fraction_volume = 0.0;
   std::int64_t interfacial_cells = 0;
   std::optional<double> body_volume;
+  CoverReport overlap;
+  CoverReport inverted;
   std::int64_t unresolved_cells = 0;
   double largest_error_estimate = 0.0;
   std::vector<std::string> warnings;  ///< of the mesh's file
@@ -129,6 +135,7 @@ Sample sample_mesh(const Request& request, LongCall& long_call) {
   sample.grid = grid_around(bounds_of(request.body, mesh), request.grid);
   FractionsFromMeshOptions options;
   options.flip = request.flip;
+  options.overlaps = request.overlaps.value_or(Overlaps::unite);
   if (request.cracks) {
     options.check_edges = false;
     options.tolerance = *request.cracks;
@@ -141,6 +148,8 @@ Sample sample_mesh(const Request& request, LongCall& long_call) {
     sample.fractions = std::move(result.fractions);
     sample.fraction_volume = result.report.fraction_volume;
     sample.body_volume = result.report.mesh_volume;
+    sample.overlap = result.report.overlap;
+    sample.inverted = result.report.inverted;
   } catch (const Error& error) {
     fail_mesh(request.body, error);
   }
@@ -148,8 +157,29 @@ Sample sample_mesh(const Request& request, LongCall& long_call) {
   return sample;
 }
 
+/// "0.1 of volume in 7 cells, from (0, 0, 0) to (1, 1, 1), most in cell (1, 2, 3)"
+std::string extent_text(const CoverReport& cover) {
+  const auto corner = [](const Vec3& p) {
+    return "(" + rounded(p[0], 6) + ", " + rounded(p[1], 6) + ", " + rounded(p[2], 6) + ")";
+  };
+  return rounded(cover.volume, 6) + " of volume in " + count_of(cover.cells, "cell") + ", from " +
+         corner(cover.low) + " to " + corner(cover.high) + ", most in cell (" +
+         std::to_string(cover.cell[0]) + ", " + std::to_string(cover.cell[1]) + ", " +
+         std::to_string(cover.cell[2]) + ")";
+}
+
 void print_warnings(const Request& request, const Sample& sample) {
   warn_all(sample.warnings);
+  if (sample.overlap.cells > 0) {
+    const bool count = request.overlaps == Overlaps::count;
+    warn("'" + request.body + "': parts overlap by " + extent_text(sample.overlap) +
+         (count ? "; it counts as often as it is covered" : "; it counts once"));
+  }
+  if (sample.inverted.cells > 0) {
+    const bool count = request.overlaps == Overlaps::count;
+    warn("'" + request.body + "': pockets are inside out, " + extent_text(sample.inverted) +
+         (count ? "; they count negatively" : "; they are outside"));
+  }
   if (sample.unresolved_cells > 0) {
     warn("'" + request.body + "': " + count_of(sample.unresolved_cells, "cell") +
          " may miss the tolerance; the largest estimate of an error is " +
@@ -195,6 +225,9 @@ void check_request(const Request& request) {
   }
   if (!request.is_mesh() && request.flip) {
     throw CLI::ValidationError("--flip", "only meshes can be inside out");
+  }
+  if (!request.is_mesh() && request.overlaps) {
+    throw CLI::ValidationError("--overlaps", "only meshes can have parts that overlap");
   }
   if (!request.is_mesh() && request.cracks) {
     throw CLI::ValidationError("--cracks", "only meshes can have cracks");
@@ -288,6 +321,15 @@ void add_sample_command(CLI::App& program) {
           "Meshes: let edges pass that do not match, as at T-junctions and small cracks, if no\n"
           "column of cells gapes by more than this share of its cross-section, 1e-12 to 0.25")
       ->option_text("SHARE");
+  command
+      .add_option_function<std::string>(
+          "--overlaps",
+          [request](const std::string& text) {
+            request->overlaps = parse_name("--overlaps", text, kOverlaps);
+          },
+          "Meshes: where parts overlap, union (default) counts space once, refuse fails, and\n"
+          "count counts it as often as it is covered, so that fractions may exceed 1")
+      ->option_text("HOW");
   command
       .add_option_function<std::string>(
           "--type",

@@ -141,27 +141,38 @@ TEST_CASE("mixed orientation names two triangles") {
               {"vertex 0", "vertex 1", "2", "one way", "3 such edges"});
 }
 
-TEST_CASE("overlapping parts and parts inside out name a cell") {
+TEST_CASE("overlapping parts that are refused and parts inside out name a cell") {
   const Grid grid = make_grid({8, 8, 8}, {0, 0, 0}, {0.5, 0.5, 0.5});
+  FractionsFromMeshOptions refuse;
+  refuse.overlaps = Overlaps::refuse;
   TriangleMesh twice = box_mesh({0.5, 0.5, 0.5}, {2.5, 2.5, 2.5});
   twice.append(box_mesh({1.5, 1.5, 1.5}, {3.5, 3.5, 3.5}));
-  check_error(caught(grid, twice), ErrorCode::invalid_argument,
-              {"overlap", "cell (3, 3, 3)", "(1.75, 1.75, 1.75)", "fraction 2"});
+  check_error(caught(grid, twice, refuse), ErrorCode::invalid_argument,
+              {"overlap", "cell (3, 3, 3)", "(1.75, 1.75, 1.75)", "has 1 of its volume"});
   TriangleMesh part = box_mesh({0.5, 0.5, 0.5}, {3.5, 3.5, 1.0});
   part.append(box_mesh({1.1, 1.1, 1.6}, {2.5, 2.5, 3.4}).reversed());
+  check_error(caught(grid, part, refuse), ErrorCode::invalid_argument,
+              {"inside out", "cell (2, 2, 3)", "has 0.512 of its volume inside out"});
   check_error(caught(grid, part), ErrorCode::invalid_argument,
-              {"inside out", "cell (2, 2, 3)", "fraction -0.512"});
+              {"inside out", "cell (3, 3, 4)", "3.528"});
+  FractionsFromMeshOptions count;
+  count.overlaps = Overlaps::count;
+  CHECK(run(grid, part, count).fractions[(3 * 8 + 2) * 8 + 2] ==
+        doctest::Approx(-0.512).epsilon(1e-12));
 }
 
 TEST_CASE("a slight overlap passes with a tolerance and is reported") {
   const Grid grid = make_grid({4, 4, 4});
   TriangleMesh mesh = box_mesh({0.5, 0.0, 0.0}, {2.01, 3.0, 3.0});
   mesh.append(box_mesh({2.0, 0.0, 0.0}, {3.5, 3.0, 3.0}));
-  check_error(caught(grid, mesh), ErrorCode::invalid_argument, {"overlap", "cell (2, 0, 0)"});
   FractionsFromMeshOptions options;
+  options.overlaps = Overlaps::refuse;
+  check_error(caught(grid, mesh, options), ErrorCode::invalid_argument,
+              {"overlap", "cell (2, 0, 0)"});
   options.tolerance = 0.02;
   const FractionsFromMesh result = run(grid, mesh, options);
   CHECK(result.report.highest_raw == doctest::Approx(1.01).epsilon(1e-12));
+  CHECK(result.report.overlap.volume == doctest::Approx(0.09).epsilon(1e-12));
   CHECK(*std::max_element(result.fractions.begin(), result.fractions.end()) == 1.0);
 }
 

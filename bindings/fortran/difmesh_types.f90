@@ -58,6 +58,12 @@ module difmesh_types
     dif_side_full = 5
 
   integer(c_int32_t), parameter, public :: &
+    dif_overlaps_default = 0, &
+    dif_overlaps_union = 1, &
+    dif_overlaps_refuse = 2, &
+    dif_overlaps_count = 3
+
+  integer(c_int32_t), parameter, public :: &
     dif_int32 = 11, &
     dif_uint32 = 12, &
     dif_int64 = 13, &
@@ -229,6 +235,8 @@ module difmesh_types
     integer(c_int32_t) :: reserved = 0
     type(c_funptr) :: progress = c_null_funptr
     type(c_ptr) :: progress_user = c_null_ptr
+    integer(c_int32_t) :: overlaps = 0
+    integer(c_int32_t) :: reserved_2 = 0
   end type
 
   type, bind(c), public :: dif_triangle_report
@@ -241,6 +249,14 @@ module difmesh_types
     real(c_double) :: fraction_volume = 0
     real(c_double) :: mesh_volume = 0
     real(c_double) :: seconds = 0
+    real(c_double) :: overlap_volume = 0
+    integer(c_int64_t) :: overlap_cells = 0
+    real(c_double) :: largest_overlap = 0
+    integer(c_int64_t) :: overlap_cell(3) = 0
+    real(c_double) :: overlap_low(3) = 0
+    real(c_double) :: overlap_high(3) = 0
+    real(c_double) :: inverted_volume = 0
+    integer(c_int64_t) :: inverted_cells = 0
   end type
 
   type, bind(c), public :: dif_shape_options

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cstdint>
+#include <string>
 #include <utility>
 
 #include "boundary.hpp"
@@ -67,12 +69,29 @@ dif_function_report to_report(const difmesh::FractionsFromFunctionReport& report
   return result;
 }
 
+difmesh::Overlaps to_overlaps(std::int32_t overlaps) {
+  switch (overlaps) {
+    case DIF_OVERLAPS_DEFAULT:
+    case DIF_OVERLAPS_UNION:
+      return difmesh::Overlaps::unite;
+    case DIF_OVERLAPS_REFUSE:
+      return difmesh::Overlaps::refuse;
+    case DIF_OVERLAPS_COUNT:
+      return difmesh::Overlaps::count;
+    default:
+      capi::fail_argument("options: overlaps is " + std::to_string(overlaps) +
+                          ", which is none of DIF_OVERLAPS_...");
+  }
+}
+
 difmesh::FractionsFromMeshOptions to_options(const dif_triangle_options* options) {
   dif_triangle_options defaults{};
   dif_triangle_options_init(&defaults, sizeof defaults);
   const dif_triangle_options given = capi::read_struct(options, defaults, "options");
   capi::require_zero(given.reserved, "options");
+  capi::require_zero(given.reserved_2, "options");
   difmesh::FractionsFromMeshOptions result;
+  result.overlaps = to_overlaps(given.overlaps);
   result.tolerance = given.tolerance;
   result.flip = capi::to_bool(given.flip, "flip");
   result.check_edges = capi::to_bool(given.check_edges, "check_edges");
@@ -91,6 +110,14 @@ dif_triangle_report to_report(const difmesh::FractionsFromMeshReport& report) {
   result.fraction_volume = report.fraction_volume;
   result.mesh_volume = report.mesh_volume;
   result.seconds = report.seconds.total;
+  result.overlap_volume = report.overlap.volume;
+  result.overlap_cells = report.overlap.cells;
+  result.largest_overlap = report.overlap.largest;
+  std::copy_n(report.overlap.cell.data(), 3, result.overlap_cell);
+  std::copy_n(report.overlap.low.data(), 3, result.overlap_low);
+  std::copy_n(report.overlap.high.data(), 3, result.overlap_high);
+  result.inverted_volume = report.inverted.volume;
+  result.inverted_cells = report.inverted.cells;
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include "clip_band.hpp"
 #include "column_sums.hpp"
 #include "difmesh/grid.hpp"
+#include "piece_lists.hpp"
 #include "triangle_bins.hpp"
 
 namespace difmesh::detail {
@@ -15,11 +16,14 @@ namespace difmesh::detail {
 /// Clips triangles to the cells of one block of rows.
 class CellClipper {
  public:
-  CellClipper(const RowBlocks::Rows& rows, std::int64_t cells_per_row, ColumnSums& sums)
-      : rows_(rows), cells_(cells_per_row), sums_(sums) {}
+  CellClipper(const RowBlocks::Rows& rows, std::int64_t cells_per_row, ColumnSums& sums,
+              PieceLists& lists)
+      : rows_(rows), cells_(cells_per_row), sums_(sums), lists_(lists) {}
 
-  void add_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  /// \param number of the triangle
+  void add_triangle(std::uint32_t number, const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 corners[3] = {a, b, c};
+    triangle_ = number;
     const Extent z = extent<2>(corners, 3);
     const BandRange range = bands(z.low, z.high);
     if (range.first == range.last) {
@@ -83,6 +87,7 @@ class CellClipper {
   }
 
   void add_piece(std::int64_t row, std::int64_t i, const Vec3* corners, std::size_t size) {
+    lists_.add(row, i + 1, triangle_);
     if (i < 0 || i >= cells_) {
       sums_.add(row, i < 0 ? 0 : cells_ + 1, piece_sums(corners, size, 0.0).area2 / 2.0, 0.0);
       return;
@@ -95,6 +100,8 @@ class CellClipper {
   const RowBlocks::Rows rows_;
   const std::int64_t cells_;
   ColumnSums& sums_;
+  PieceLists& lists_;
+  std::uint32_t triangle_ = 0;
   std::int64_t pieces_ = 0;
   // Each clip at most doubles the corners.
   Polygon<6> layer_;

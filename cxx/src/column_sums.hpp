@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "cell_overlaps.hpp"
+#include "difmesh/fractions_from_mesh.hpp"
 #include "difmesh/grid.hpp"
 
 namespace difmesh::detail {
@@ -16,22 +18,37 @@ struct ColumnFault {
   enum class Kind : std::uint8_t {
     none,
     gap,      ///< the areas over the whole column do not cancel: the mesh is open
-    winding,  ///< a cell is covered twice or more, or negatively
+    winding,  ///< a cell is covered twice or more, or negatively, where that is refused
   };
   Kind kind = Kind::none;
   std::int64_t x = 0;  ///< cell in the row; for gaps too, where they show first
-  double value = 0.0;  ///< the gap, or what would be the fraction
+  double value = 0.0;  ///< the gap; the share that is covered again, or less what is inverted
+};
+
+/// Cells with something in them that should not be there.
+struct MarkedCells {
+  double sum = 0.0;  ///< over the cells, in cells
+  std::int64_t count = 0;
+  double largest = 0.0;
+  Index3 where{0, 0, 0};  ///< the first cell with the largest
+  Index3 low{0, 0, 0};    ///< box of cells low..high
+  Index3 high{-1, -1, -1};
+
+  void note(const Index3& from, std::int64_t cells, double share) noexcept;
+  void merge(const MarkedCells& other) noexcept;
 };
 
 /// Facts gathered while rows are turned into fractions.
 struct RowFacts {
   std::int64_t pieces = 0;
   std::int64_t cells_touched = 0;
-  std::int64_t full_cells = 0;     ///< without a piece
-  double touched_fractions = 0.0;  ///< sum of γ over the cells touched
+  std::int64_t full_fractions = 0;  ///< sum of γ over the cells without a piece
+  double touched_fractions = 0.0;   ///< and over the others
   double lowest_raw = 0.0;
   double highest_raw = 1.0;
   double largest_gap = 0.0;
+  MarkedCells overlaps;
+  MarkedCells inverted;
 
   void merge(const RowFacts& other) noexcept;
 };
@@ -39,8 +56,18 @@ struct RowFacts {
 /// How raw values become fractions.
 struct RowRules {
   double sign = 1.0;       ///< -1 for a mesh turned inside out
-  double tolerance = 0.0;  ///< for gaps and for values outside [0,1]
+  double tolerance = 0.0;  ///< for gaps, and where it is refused for covering twice
+  double rounding = 0.0;   ///< shares of a cell that are covered twice by rounding alone
   double snap = 0.0;       ///< fractions this close to 0 or 1 become 0 or 1
+  Overlaps overlaps = Overlaps::unite;
+};
+
+/// One row of cells, as drain() is to fill it.
+struct RowOutput {
+  Index3 first;  ///< its first cell
+  double* fractions;
+  CellOverlaps& overlaps;
+  RowFacts& facts;
 };
 
 /// Sums over the pieces in rows of cells along x. Each row has one slot before the grid, one per
@@ -65,7 +92,7 @@ class ColumnSums {
   }
 
   /// Turns one row into fractions and clears it. Returns the first fault.
-  ColumnFault drain(std::int64_t row, const RowRules& rules, double* fractions, RowFacts& facts);
+  ColumnFault drain(std::int64_t row, const RowRules& rules, const RowOutput& output);
 
  private:
   struct Slot {

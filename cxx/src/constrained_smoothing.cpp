@@ -168,6 +168,7 @@ class Smoother {
   Array<double> measured(const Array<Vec3>& positions, bool first) {
     FractionsFromMeshOptions options;
     options.check_edges = first;
+    options.overlaps = first ? Overlaps::refuse : Overlaps::count;
     options.threads = options_.threads;
     ++result_.measurements;
     return fractions_from_mesh(grid_, positions, triangles_, options).fractions;

@@ -1,6 +1,7 @@
 #include "difmesh/fractions_from_mesh.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -10,12 +11,15 @@
 #include <vector>
 
 #include "cell_clipper.hpp"
+#include "cell_overlaps.hpp"
 #include "column_sums.hpp"
 #include "difmesh/error.hpp"
 #include "difmesh/float_environment.hpp"
 #include "grid_mesh.hpp"
 #include "parallel.hpp"
+#include "piece_lists.hpp"
 #include "position_text.hpp"
+#include "sheet_facts.hpp"
 #include "stopwatch.hpp"
 #include "triangle_bins.hpp"
 
@@ -29,6 +33,11 @@ constexpr double kGreatestTolerance = 0.25;
 // Coordinates in grid units are rounded by about this share of themselves, and a fraction is no
 // better than the coordinates.
 constexpr double kSnap = 0x1p-51;
+// So much of a cell may seem covered twice where sheets touch.
+constexpr double kOverlapRounding = 1e-12;
+// Pockets inside out up to this share of the volume are what meshes that cut themselves have; more
+// is a part that was turned.
+constexpr double kPockets = 1e-3;
 
 [[noreturn]] void throw_invalid(const std::string& message) {
   throw Error(ErrorCode::invalid_argument, message);
@@ -45,6 +54,11 @@ RowRules row_rules(const Grid& grid, const FractionsFromMeshOptions& options) {
   rules.sign = options.flip ? -1.0 : 1.0;
   rules.tolerance = options.tolerance;
   rules.snap = kSnap * static_cast<double>(*std::max_element(grid.dims.begin(), grid.dims.end()));
+  rules.rounding = std::max(kOverlapRounding, 4.0 * rules.snap);
+  if (!options.check_edges) {
+    rules.rounding = std::max(rules.rounding, options.tolerance);
+  }
+  rules.overlaps = options.overlaps;
   return rules;
 }
 
@@ -65,32 +79,36 @@ void check_sizes(const Grid& grid, std::span<const Vec3> positions,
   }
 }
 
-/// Lends each portion of the work a ColumnSums, cleared; there are never more than threads.
-class SumsPool {
- public:
-  SumsPool(std::int64_t rows, std::int64_t cells) : rows_(rows), cells_(cells) {}
+/// What a portion of the work needs to fill blocks, cleared before each.
+struct Bench {
+  ColumnSums sums;
+  PieceLists lists;
+  CellOverlaps overlaps;
 
-  std::unique_ptr<ColumnSums> take() {
-    {
-      const std::lock_guard lock(mutex_);
-      if (!free_.empty()) {
-        auto sums = std::move(free_.back());
-        free_.pop_back();
-        return sums;
-      }
-    }
-    return std::make_unique<ColumnSums>(rows_, cells_);
-  }
-  void give_back(std::unique_ptr<ColumnSums> sums) {
+  Bench(std::int64_t rows, std::int64_t cells, const NamedMesh& mesh, double sign)
+      : sums(rows, cells), lists(rows, cells + 2), overlaps(mesh, sign) {}
+};
+
+/// Lends each portion of the work a bench; there are never more than threads.
+class BenchPool {
+ public:
+  std::unique_ptr<Bench> take() {
     const std::lock_guard lock(mutex_);
-    free_.push_back(std::move(sums));
+    if (free_.empty()) {
+      return nullptr;
+    }
+    auto bench = std::move(free_.back());
+    free_.pop_back();
+    return bench;
+  }
+  void give_back(std::unique_ptr<Bench> bench) {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(std::move(bench));
   }
 
  private:
-  std::int64_t rows_;
-  std::int64_t cells_;
   std::mutex mutex_;
-  std::vector<std::unique_ptr<ColumnSums>> free_;
+  std::vector<std::unique_ptr<Bench>> free_;
 };
 
 /// What became of one block of rows.
@@ -103,38 +121,41 @@ struct BlockResult {
 /// Everything that the blocks of rows are made from.
 struct Work {
   const Grid& grid;
-  std::span<const Vec3> corners;
-  std::span<const Triangle> triangles;
+  NamedMesh mesh;
   const RowBlocks& blocks;
   const TriangleBins& bins;
   RowRules rules;
 };
 
-/// Fills the rows of one block. \param sums as many rows as a block has, cleared; so is it left
+/// Fills the rows of one block.
+/// \param bench for as many rows as a block has, cleared; so is it left
 /// \param fractions null: only the facts are wanted
-BlockResult fill_block(const Work& work, std::int64_t block, ColumnSums& sums, double* fractions) {
+BlockResult fill_block(const Work& work, std::int64_t block, Bench& bench, double* fractions) {
   BlockResult result;
   const RowBlocks::Rows rows = work.blocks.rows(block);
   const Index3& dims = work.grid.dims;
-  CellClipper clipper(rows, dims[0], sums);
+  CellClipper clipper(rows, dims[0], bench.sums, bench.lists);
   for (const std::uint32_t t : work.bins.triangles(block)) {
-    const Triangle& triangle = work.triangles[t];
-    clipper.add_triangle(work.corners[triangle[0]], work.corners[triangle[1]],
-                         work.corners[triangle[2]]);
+    const Triangle& triangle = work.mesh.triangles[t];
+    clipper.add_triangle(t, work.mesh.corners[triangle[0]], work.mesh.corners[triangle[1]],
+                         work.mesh.corners[triangle[2]]);
   }
   result.facts.pieces = clipper.pieces();
+  bench.overlaps.begin_block(rows, bench.lists);
   std::vector<double> nowhere(fractions == nullptr ? static_cast<std::size_t>(dims[0]) : 0);
   std::int64_t row = 0;
   for (std::int64_t k = rows.first_k; k < rows.end_k; ++k) {
     for (std::int64_t j = rows.first_j; j < rows.end_j; ++j) {
       double* out = fractions == nullptr ? nowhere.data() : fractions + (k * dims[1] + j) * dims[0];
-      const ColumnFault fault = sums.drain(row++, work.rules, out, result.facts);
+      const ColumnFault fault =
+          bench.sums.drain(row++, work.rules, {{0, j, k}, out, bench.overlaps, result.facts});
       if (fault.kind != ColumnFault::Kind::none && result.fault.kind == ColumnFault::Kind::none) {
         result.fault = fault;
         result.cell = {fault.x, j, k};
       }
     }
   }
+  bench.lists.clear();
   return result;
 }
 
@@ -146,29 +167,53 @@ std::string describe_gap(const BlockResult& block, const Grid& grid) {
          " of its cross-section";
 }
 
+std::string describe_cell(const Index3& cell, const Grid& grid) {
+  return "cell (" + std::to_string(cell[0]) + ", " + std::to_string(cell[1]) + ", " +
+         std::to_string(cell[2]) + ") at " + rounded_text(grid.cell_centre(cell));
+}
+
 [[noreturn]] void throw_fault(const BlockResult& block, const Grid& grid, double tolerance) {
   if (block.fault.kind == ColumnFault::Kind::gap) {
     throw_invalid("the mesh is open: " + describe_gap(block, grid) + "; the tolerance is " +
                   rounded_text(tolerance));
   }
-  const Index3& cell = block.cell;
-  throw_invalid("parts of the mesh overlap or are inside out: cell (" + std::to_string(cell[0]) +
-                ", " + std::to_string(cell[1]) + ", " + std::to_string(cell[2]) + ") at " +
-                rounded_text(grid.cell_centre(cell)) + " would have the fraction " +
-                rounded_text(block.fault.value));
+  const double share = block.fault.value;
+  throw_invalid(std::string("parts of the mesh ") +
+                (share > 0.0 ? "overlap: " : "are inside out: ") + describe_cell(block.cell, grid) +
+                " has " + rounded_text(std::abs(share)) + " of its volume " +
+                (share > 0.0 ? "covered more than once" : "inside out, outside of all others"));
 }
 
 std::vector<BlockResult> fill_blocks(const Work& work, Phases& phases, double* fractions) {
   std::vector<BlockResult> results(static_cast<std::size_t>(work.blocks.count()));
-  SumsPool pool(work.blocks.rows_per_block(), work.grid.dims[0]);
+  BenchPool pool;
   phases.run(1.0 - kCheckWeight, work.blocks.count(), 1, [&](std::int64_t begin, std::int64_t end) {
-    auto sums = pool.take();
-    for (std::int64_t block = begin; block < end; ++block) {
-      results[static_cast<std::size_t>(block)] = fill_block(work, block, *sums, fractions);
+    auto bench = pool.take();
+    if (!bench) {
+      bench = std::make_unique<Bench>(work.blocks.rows_per_block(), work.grid.dims[0], work.mesh,
+                                      work.rules.sign);
     }
-    pool.give_back(std::move(sums));
+    for (std::int64_t block = begin; block < end; ++block) {
+      results[static_cast<std::size_t>(block)] = fill_block(work, block, *bench, fractions);
+    }
+    pool.give_back(std::move(bench));
   });
   return results;
+}
+
+[[nodiscard]] double fraction_sum(const RowFacts& facts) {
+  return static_cast<double>(facts.full_fractions) + facts.touched_fractions;
+}
+
+void check_pockets(const RowFacts& facts, const Grid& grid) {
+  const double share = facts.inverted.sum / fraction_sum(facts);
+  // Without any volume, the share is infinite.
+  if (facts.inverted.count > 0 && !(share <= kPockets)) {
+    throw_invalid("parts of the mesh are inside out, " +
+                  rounded_text(facts.inverted.sum * grid.cell_volume()) +
+                  " of volume outside of all others, most in " +
+                  describe_cell(facts.inverted.where, grid));
+  }
 }
 
 /// Fills the whole field. Faults are named in the order of memory, whoever found them first.
@@ -179,6 +224,9 @@ RowFacts fill_field(const Work& work, Phases& phases, double* fractions) {
       throw_fault(result, work.grid, work.rules.tolerance);
     }
     facts.merge(result.facts);
+  }
+  if (work.rules.overlaps == Overlaps::unite) {
+    check_pockets(facts, work.grid);
   }
   return facts;
 }
@@ -195,14 +243,31 @@ RowFacts fill_field(const Work& work, Phases& phases, double* fractions) {
   throw_invalid(defect.message);
 }
 
+CoverReport cover_report(const MarkedCells& cells, const Grid& grid) {
+  CoverReport report;
+  if (cells.count == 0) {
+    return report;
+  }
+  report.volume = cells.sum * grid.cell_volume();
+  report.cells = cells.count;
+  report.largest = cells.largest;
+  report.cell = cells.where;
+  for (std::size_t a = 0; a < 3; ++a) {
+    report.low[a] = grid.origin[a] + static_cast<double>(cells.low[a]) * grid.spacing[a];
+    report.high[a] = grid.origin[a] + static_cast<double>(cells.high[a] + 1) * grid.spacing[a];
+  }
+  return report;
+}
+
 void fill_report(const RowFacts& facts, const Grid& grid, FractionsFromMeshReport& report) {
   report.pieces = facts.pieces;
   report.cells_touched = facts.cells_touched;
   report.lowest_raw = facts.lowest_raw;
   report.highest_raw = facts.highest_raw;
   report.largest_gap = facts.largest_gap;
-  report.fraction_volume =
-      (static_cast<double>(facts.full_cells) + facts.touched_fractions) * grid.cell_volume();
+  report.fraction_volume = fraction_sum(facts) * grid.cell_volume();
+  report.overlap = cover_report(facts.overlaps, grid);
+  report.inverted = cover_report(facts.inverted, grid);
 }
 
 }  // namespace
@@ -233,9 +298,11 @@ FractionsFromMesh fractions_from_mesh(const Grid& grid, std::span<const Vec3> po
   }
   const RowBlocks blocks(grid.dims);
   const TriangleBins bins(blocks, mesh.corners, triangles, workers);
+  const SheetFacts facts = sheet_facts(mesh.corners, triangles, workers);
   report.seconds.bin = phase.lap();
 
-  const Work work{grid, mesh.corners, triangles, blocks, bins, row_rules(grid, options)};
+  const Work work{
+      grid, {mesh.corners, mesh.names, triangles, facts}, blocks, bins, row_rules(grid, options)};
   if (mesh.defect) {
     throw_defect(*mesh.defect, work, phases);
   }

@@ -147,10 +147,9 @@ SurfaceSums surface_sums(std::span<const Vec3> corners, std::span<const std::uin
 GridMesh checked_mesh(const Grid& grid, std::span<const Vec3> positions,
                       std::span<const Triangle> triangles, const MeshRules& rules, Phases& phases) {
   GridMesh mesh;
-  Array<std::uint64_t> keys;
-  to_grid_units(grid, positions, mesh.corners, keys, phases);
+  to_grid_units(grid, positions, mesh.corners, mesh.names, phases);
   check_indices(positions.size(), triangles, phases);
-  const SurfaceSums sums = surface_sums(mesh.corners, keys, triangles, phases);
+  const SurfaceSums sums = surface_sums(mesh.corners, mesh.names, triangles, phases);
   if (rules.check_edges && sums.balance != 0) {
     mesh.defect = find_edge_defect(positions, triangles);
     if (mesh.defect) {

@@ -1,6 +1,7 @@
 #pragma once
 // A triangle mesh in the units of a grid, checked.
 
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -12,8 +13,9 @@
 namespace difmesh::detail {
 
 struct GridMesh {
-  Array<Vec3> corners;  ///< positions in spacings from the grid's origin
-  double volume = 0.0;  ///< inside the whole mesh, in cells
+  Array<Vec3> corners;         ///< positions in spacings from the grid's origin
+  Array<std::uint64_t> names;  ///< of the corners; equal ones at equal positions
+  double volume = 0.0;         ///< inside the whole mesh, in cells
   /// Only where edges were to be checked; nothing is known of the volume then.
   std::optional<EdgeDefect> defect;
 };

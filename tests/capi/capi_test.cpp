@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <thread>
 #include <vector>
@@ -438,6 +440,7 @@ TEST_CASE("fractions from a function a shape and a mesh are the core's") {
   CHECK(std::equal(again.begin(), again.end(), expected.fractions.begin()));
   CHECK(facts.mesh_volume == expected.report.mesh_volume);
   CHECK(facts.pieces == expected.report.pieces);
+  CHECK(facts.overlap_cells == 0);
 
   if (dif_has(DIF_PART_DISTANCE) == 1) {
     dif_distance found = test::prepared(dif_distance_init);
@@ -541,4 +544,51 @@ TEST_CASE("reconstructions on eight threads at once do not disturb each other") 
   for (const int times : right) {
     CHECK(times == 10);
   }
+}
+
+TEST_CASE("overlapping parts of a mesh are united or refused or counted") {
+  // Two boxes of 2 x 2 x 2 with 1 x 2 x 2 in common.
+  std::vector<double> points;
+  std::vector<std::uint32_t> faces;
+  constexpr std::uint32_t kFaces[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
+                                           {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
+                                           {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  for (const std::uint32_t box : {0U, 1U}) {
+    for (std::uint32_t v = 0; v < 8; ++v) {
+      points.insert(points.end(),
+                    {1.25 + box + 2.0 * (v & 1U), 1.5 + (v & 2U), 1.75 + (v & 4U) / 2.0});
+    }
+    for (const auto& face : kFaces) {
+      for (const std::uint32_t v : face) {
+        faces.push_back(v + 8 * box);
+      }
+    }
+  }
+  dif_mesh* made = nullptr;
+  REQUIRE(dif_mesh_from_arrays(points.data(), 16, faces.data(), 24, &made) == DIF_OK);
+  const test::MeshHandle mesh(made);
+  const dif_grid grid = test::c_grid({.dims = {6, 6, 6}});
+  std::vector<double> fractions(216);
+  const auto sum = [&] { return std::accumulate(fractions.begin(), fractions.end(), 0.0); };
+  dif_triangle_report report = test::prepared(dif_triangle_report_init);
+  REQUIRE(dif_fractions_from_mesh(&grid, made, nullptr, &report, fractions.data()) == DIF_OK);
+  CHECK(sum() == doctest::Approx(12.0).epsilon(1e-13));
+  CHECK(report.overlap_volume == doctest::Approx(4.0).epsilon(1e-13));
+  CHECK(report.overlap_cells == 18);
+  CHECK(report.largest_overlap == doctest::Approx(0.75).epsilon(1e-13));
+  CHECK(report.overlap_cell[0] == 2);
+  CHECK(report.overlap_cell[1] == 2);
+  CHECK(report.overlap_cell[2] == 2);
+  CHECK(report.overlap_low[2] == 1.0);
+  CHECK(report.overlap_high[2] == 4.0);
+  CHECK(report.inverted_cells == 0);
+  CHECK(report.inverted_volume == 0.0);
+  dif_triangle_options options = test::prepared(dif_triangle_options_init);
+  options.overlaps = DIF_OVERLAPS_COUNT;
+  REQUIRE(dif_fractions_from_mesh(&grid, made, &options, nullptr, fractions.data()) == DIF_OK);
+  CHECK(sum() == doctest::Approx(16.0).epsilon(1e-13));
+  options.overlaps = DIF_OVERLAPS_REFUSE;
+  CHECK(dif_fractions_from_mesh(&grid, made, &options, nullptr, fractions.data()) ==
+        DIF_ERROR_INVALID_ARGUMENT);
+  CHECK(std::string(dif_last_message()).find("overlap: cell (2, 1, 1)") != std::string::npos);
 }

@@ -404,6 +404,35 @@ TEST_CASE("sample lets cracks pass that are small enough") {
         doctest::Approx(1.0).epsilon(1e-12));
 }
 
+TEST_CASE("sample counts parts that overlap once and says where they do") {
+  const Place place;
+  TriangleMesh plates = box_mesh({0, 0, 0}, {1, 1, 0.02});
+  plates.append(box_mesh({0, 0, 0.015}, {1, 1, 0.035}));
+  const std::string path = place.write("plates.off", plates);
+  for (const char* const cells : {"24", "9", "50,51,60"}) {
+    CHECK(place.sample(path, {"--cells", cells}).volume() == doctest::Approx(0.035).epsilon(1e-12));
+    CHECK(place.sample(path, {"--cells", cells, "--overlaps", "union"}).volume() ==
+          doctest::Approx(0.035).epsilon(1e-12));
+    CHECK(place.sample(path, {"--cells", cells, "--overlaps", "count"}).volume() ==
+          doctest::Approx(0.04).epsilon(1e-12));
+  }
+  const Outcome outcome = place.run(path, {"--cells", "24"});
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.err.find("warning: ") != std::string::npos);
+  CHECK(outcome.err.find("parts overlap by 0.005 of volume in ") != std::string::npos);
+  CHECK(outcome.err.find("it counts once") != std::string::npos);
+  std::filesystem::remove(place.field);
+  check_fails(place.run(path, {"--cells", "24", "--overlaps", "refuse"}), 1,
+              {"plates.off", "parts of the mesh overlap", "cell (3, 3, "});
+  CHECK(!std::filesystem::exists(place.field));
+  check_fails(place.run(path, {"--cells", "24", "--overlaps", "both"}), 2,
+              {"--overlaps", "both", "union, refuse, count"});
+  check_fails(place.run("sphere", {"--cells", "24", "--overlaps", "union"}), 2, {"--overlaps"});
+  const Outcome clean =
+      place.run(place.write("box.off", box_mesh({0, 0, 0}, {1, 1, 0.02})), {"--cells", "24"});
+  check_succeeds(clean);
+}
+
 TEST_CASE("sample names a mesh that it cannot use") {
   const Place place;
   const TriangleMesh box = box_mesh({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0});

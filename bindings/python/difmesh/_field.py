@@ -31,12 +31,20 @@ class TriangleReport:
 
     pieces: int  #: parts of triangles inside cells
     cells_touched: int  #: all others are exactly 0 or 1
-    lowest_raw: float  #: least fraction before clamping
+    lowest_raw: float  #: least mean winding number of a cell
     highest_raw: float  #: greatest
     largest_gap: float  #: of a column's sum from an integer
     fraction_volume: float  #: in the grid
     mesh_volume: float  #: in the grid or not
     seconds: float
+    overlap_volume: float  #: covered more than once, in the grid; thrice counts twice
+    overlap_cells: int  #: that have some, by more than rounding
+    largest_overlap: float  #: as a share of a cell
+    overlap_cell: tuple[int, int, int]  #: (i, j, k) of the first with the largest
+    overlap_low: tuple[float, float, float]  #: corners of the box round these cells
+    overlap_high: tuple[float, float, float]
+    inverted_volume: float  #: of pockets that are inside out, which are outside
+    inverted_cells: int
 
 
 @dataclass(frozen=True, eq=False)

@@ -26,6 +26,8 @@ from ._structs import (
 
 Dims = Union[int, Sequence[int], npt.NDArray[Any]]
 
+_OVERLAPS = {"union": 1, "refuse": 2, "count": 3}
+
 _SHAPES = {
     "sphere": 1,
     "ellipsoid": 2,
@@ -218,6 +220,7 @@ def sample_mesh(
     tolerance: Optional[float] = None,
     flip: bool = False,
     check_edges: bool = True,
+    overlaps: str = "union",
     threads: int = 0,
     progress: Progress = None,
 ) -> Field:
@@ -227,8 +230,12 @@ def sample_mesh(
     tolerance: by which a column of cells may miss an integer; [1e-12, 0.25], 1e-9.
     flip: triangles are clockwise seen from outside.
     check_edges: every edge must have its opposite.
+    overlaps: where parts of the mesh overlap, "union" counts space once, "refuse" raises, and
+        "count" as often as it is covered; fractions may then exceed 1. The report says how much
+        overlaps and where.
 
-    Raises InvalidArgumentError for a mesh that is open, inside out or of mixed orientation.
+    Raises InvalidArgumentError for a mesh that is open, inside out or of mixed orientation, or has
+    parts that are inside out.
     """
     if not isinstance(mesh, Mesh):
         raise TypeError(f"mesh must be a Mesh, got {type(mesh).__name__}; see Mesh(points, faces)")
@@ -238,6 +245,7 @@ def sample_mesh(
     options.threads = int32(threads, "threads")
     options.flip = bool(flip)
     options.check_edges = bool(check_edges)
+    options.overlaps = choice(overlaps, _OVERLAPS, "overlaps")
     if tolerance is not None:
         options.tolerance = tolerance
     return _sample(

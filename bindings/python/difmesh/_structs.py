@@ -151,6 +151,8 @@ class DifTriangleOptions(Sized):
         ("reserved", c_int32),
         ("progress", PROGRESS),
         ("progress_user", c_void_p),
+        ("overlaps", c_int32),
+        ("reserved_2", c_int32),
     ]
 
 
@@ -165,6 +167,14 @@ class DifTriangleReport(Sized):
         ("fraction_volume", c_double),
         ("mesh_volume", c_double),
         ("seconds", c_double),
+        ("overlap_volume", c_double),
+        ("overlap_cells", c_int64),
+        ("largest_overlap", c_double),
+        ("overlap_cell", c_int64 * 3),
+        ("overlap_low", c_double * 3),
+        ("overlap_high", c_double * 3),
+        ("inverted_volume", c_double),
+        ("inverted_cells", c_int64),
     ]
 
 

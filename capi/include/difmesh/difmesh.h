@@ -435,15 +435,28 @@ DIF_API dif_status dif_fractions_from_function(const dif_grid* grid, dif_functio
                                                const dif_function_options* options,
                                                dif_function_report* report, double* fractions);
 
+/* What to do where parts of a mesh overlap: where its winding number, which counts how often a point
+ * is inside, exceeds 1. */
+enum {
+  DIF_OVERLAPS_DEFAULT = 0, /* UNION */
+  DIF_OVERLAPS_UNION = 1,   /* the share of a cell where the winding number is 1 or more */
+  DIF_OVERLAPS_REFUSE = 2,  /* INVALID_ARGUMENT; a cell is named */
+  DIF_OVERLAPS_COUNT = 3    /* the winding number's mean in a cell: may exceed 1 or be negative */
+};
+
 typedef struct dif_triangle_options {
   uint64_t struct_size;
-  double tolerance;    /* by which a column may miss an integer; [1e-12, 0.25]; 1e-9 */
-  int32_t flip;        /* 1: triangles are clockwise seen from outside; default 0 */
+  double
+      tolerance; /* by which a column may miss an integer, and of a cell that may be covered twice
+                     * with REFUSE; [1e-12, 0.25]; 1e-9 */
+  int32_t flip;  /* 1: triangles are clockwise seen from outside; default 0 */
   int32_t check_edges; /* 1, the default: every edge must have its opposite */
   int32_t threads;
   int32_t reserved;
   dif_progress progress;
   void* progress_user;
+  int32_t overlaps; /* DIF_OVERLAPS_... */
+  int32_t reserved_2;
 } dif_triangle_options;
 
 /* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
@@ -453,12 +466,20 @@ typedef struct dif_triangle_report {
   uint64_t struct_size;
   int64_t pieces;         /* parts of triangles inside cells */
   int64_t cells_touched;  /* all others are exactly 0 or 1 */
-  double lowest_raw;      /* least fraction before clamping */
+  double lowest_raw;      /* least mean winding number of a cell */
   double highest_raw;     /* greatest */
   double largest_gap;     /* of a column's sum from an integer */
   double fraction_volume; /* in the grid */
   double mesh_volume;     /* in the grid or not */
   double seconds;
+  double overlap_volume;   /* covered more than once, in the grid; thrice counts twice */
+  int64_t overlap_cells;   /* that have some, by more than rounding */
+  double largest_overlap;  /* as a share of a cell */
+  int64_t overlap_cell[3]; /* the first with the largest */
+  double overlap_low[3];   /* corners of the box round these cells */
+  double overlap_high[3];
+  double inverted_volume; /* of pockets that are inside out, which are outside */
+  int64_t inverted_cells;
 } dif_triangle_report;
 
 /* Prepares an output struct. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
@@ -466,8 +487,8 @@ DIF_API dif_status dif_triangle_report_init(dif_triangle_report* report, uint64_
 
 /* Exact volume fractions of the inside of a closed mesh. `fractions` has one element per cell of the
  * grid, x fastest. `report` may be NULL.
- * Errors: INVALID_ARGUMENT (also an open mesh, mixed orientation, a mesh inside out; edge, triangles
- * or column are named), INVALID_GRID, STRUCT, TOO_LARGE, OUT_OF_MEMORY, CANCELLED. Since 0.1. */
+ * Errors: INVALID_ARGUMENT (also an open mesh, mixed orientation, a mesh or part inside out; edge,
+ * triangles, column or cell are named), INVALID_GRID, STRUCT, TOO_LARGE, OUT_OF_MEMORY, CANCELLED. Since 0.1. */
 DIF_API dif_status dif_fractions_from_mesh(const dif_grid* grid, const dif_mesh* mesh,
                                            const dif_triangle_options* options,
                                            dif_triangle_report* report, double* fractions);

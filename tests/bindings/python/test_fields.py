@@ -95,6 +95,35 @@ class Samples(unittest.TestCase):
         with self.assertRaisesRegex(difmesh.InvalidArgumentError, "edge"):
             difmesh.sample_mesh(difmesh.Mesh(box.points, box.faces[:-1]), (4, 5, 6))
 
+    def test_overlapping_parts(self):
+        """Two plates, [0,1]² x [0,0.02] and [0,1]² x [0.015,0.035], within one layer of cells."""
+        corners = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)])
+        faces = [[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4],
+                 [2, 6, 3], [3, 6, 7], [0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5]]  # fmt: skip
+        plate = corners * (1, 1, 0.02)
+        mesh = difmesh.Mesh(
+            np.concatenate([plate, plate + (0, 0, 0.015)]),
+            np.concatenate([faces, np.array(faces) + 8]),
+        )
+        field = difmesh.sample_mesh(mesh, 6, 0.25, -0.25)
+        report = field.report
+        self.assertAlmostEqual(report.fraction_volume, 0.035, places=14)
+        self.assertAlmostEqual(report.overlap_volume, 0.005, places=14)
+        self.assertEqual(report.overlap_cells, 16)
+        self.assertAlmostEqual(report.largest_overlap, 0.02, places=12)
+        self.assertEqual(report.overlap_cell[2], 1)
+        np.testing.assert_allclose(report.overlap_low, (0, 0, 0), atol=1e-14)
+        np.testing.assert_allclose(report.overlap_high, (1, 1, 0.25), atol=1e-14)
+        self.assertEqual((report.inverted_volume, report.inverted_cells), (0, 0))
+        united = difmesh.sample_mesh(mesh, 6, 0.25, -0.25, overlaps="union")
+        np.testing.assert_array_equal(united.fractions, field.fractions)
+        counted = difmesh.sample_mesh(mesh, 6, 0.25, -0.25, overlaps="count")
+        self.assertAlmostEqual(counted.report.fraction_volume, 0.04, places=14)
+        with self.assertRaisesRegex(difmesh.InvalidArgumentError, r"overlap: cell \(1, 1, 1\)"):
+            difmesh.sample_mesh(mesh, 6, 0.25, -0.25, overlaps="refuse")
+        with self.assertRaisesRegex(ValueError, "overlaps is 'both'"):
+            difmesh.sample_mesh(mesh, 6, 0.25, -0.25, overlaps="both")
+
     def test_bad_arguments(self):
         shape = difmesh.Shape()
         for exception, call in (
