@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "atomic_file.hpp"
@@ -16,6 +17,7 @@
 #include "mesh_check.hpp"
 #include "packed_surface.hpp"
 #include "text.hpp"
+#include "used_part.hpp"
 
 namespace difmesh {
 namespace {
@@ -70,17 +72,8 @@ Array<Vec3> vectors_of(const std::filesystem::path& path, const DecodedAttribute
   return vectors;
 }
 
-}  // namespace
-
-MeshFileReport write_drc(const std::filesystem::path& path, const Mesh& mesh,
-                         const WriteDrcOptions& options) {
-  const DefaultFloatEnvironment environment;
-  check_mesh(path, mesh);
-  check_scalars(path, mesh, options.scalars);
-  check_draco(path, options.draco);
-  if (mesh.triangles.empty()) {
-    fail_write(ErrorCode::invalid_value, path, "the mesh has no triangles to compress");
-  }
+MeshFileReport write_used(const std::filesystem::path& path, const Mesh& mesh,
+                          const WriteDrcOptions& options) {
   const int bits = position_bits_of(mesh, options.draco);
   const Vec3 origin = drc_origin(mesh, bits);
   const WriteGltfOptions content{.normals = options.normals && !mesh.normals.empty(),
@@ -99,6 +92,25 @@ MeshFileReport write_drc(const std::filesystem::path& path, const Mesh& mesh,
           .position_bits = bits,
           .position_error = encoded.position_error,
           .local_origin = origin};
+}
+
+}  // namespace
+
+MeshFileReport write_drc(const std::filesystem::path& path, const Mesh& mesh,
+                         const WriteDrcOptions& options) {
+  const DefaultFloatEnvironment environment;
+  check_mesh(path, mesh);
+  check_scalars(path, mesh, options.scalars);
+  check_draco(path, options.draco);
+  if (mesh.triangles.empty()) {
+    fail_write(ErrorCode::invalid_value, path, "the mesh has no triangles to compress");
+  }
+  if (std::optional<ScalarMesh> part = used_part(mesh, options.scalars)) {
+    WriteDrcOptions for_part = options;
+    for_part.scalars = std::move(part->scalars);
+    return write_used(path, part->mesh, for_part);
+  }
+  return write_used(path, mesh, options);
 }
 
 namespace detail {

@@ -224,7 +224,8 @@ void GltfDocument::add_plain(const PackedPrimitive& primitive) {
   report_.vertices += static_cast<std::int64_t>(primitive.vertices);
   report_.triangles += static_cast<std::int64_t>(primitive.triangles.size());
   for (const float coordinate : primitive.positions()) {
-    const double rounding = 0x1p-24 * std::abs(static_cast<double>(coordinate));
+    // Half a step of float32, and the rounding of the difference to the origin.
+    const double rounding = (0x1p-24 + 0x1p-52) * std::abs(static_cast<double>(coordinate));
     report_.position_error = std::max(report_.position_error, rounding);
   }
 }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -21,6 +22,7 @@
 #include "gltf_document.hpp"
 #include "mesh_check.hpp"
 #include "text.hpp"
+#include "used_part.hpp"
 
 namespace difmesh {
 namespace detail {
@@ -117,9 +119,8 @@ void put_text(const Sink& sink, const std::filesystem::path& path, const GltfDoc
   sink("\n", 1);
 }
 
-GltfDocument describe(const std::filesystem::path& path, const Mesh& mesh,
-                      const WriteGltfOptions& options) {
-  check_options(path, mesh, options);
+GltfDocument describe_used(const std::filesystem::path& path, const Mesh& mesh,
+                           const WriteGltfOptions& options) {
   if (!options.draco) {
     (void)glb_size(path, 0, least_data_bytes(mesh, options));
   }
@@ -127,6 +128,17 @@ GltfDocument describe(const std::filesystem::path& path, const Mesh& mesh,
   PackedSurface surface = pack({path, mesh, options, origin});
   const int bits = options.draco ? position_bits_of(mesh, *options.draco) : 0;
   return {path, std::move(surface), options, bits};
+}
+
+GltfDocument describe(const std::filesystem::path& path, const Mesh& mesh,
+                      const WriteGltfOptions& options) {
+  check_options(path, mesh, options);
+  if (std::optional<ScalarMesh> part = used_part(mesh, options.scalars)) {
+    WriteGltfOptions for_part = options;
+    for_part.scalars = std::move(part->scalars);
+    return describe_used(path, part->mesh, for_part);
+  }
+  return describe_used(path, mesh, options);
 }
 
 }  // namespace

@@ -185,6 +185,69 @@ TEST_CASE("draco refuses what it cannot hold and says why") {
   refused(mesh, {.scalars = {{"k", {}}}}, {"0 values"}, ErrorCode::invalid_argument);
 }
 
+TEST_CASE("vertices that no triangle uses cost the surface nothing") {
+  const TempFolder folder;
+  const Mesh mesh = test::ball(12, {5e5, 5.4e6, 300}, 0.01);
+  Mesh stray = mesh;
+  stray.positions.insert(stray.positions.begin(), {0, 0, 0});
+  stray.positions.push_back({1e9, -1e9, 3});
+  stray.normals.insert(stray.normals.begin(), {0, 0, 1});
+  stray.normals.push_back({0, 0, 1});
+  stray.edge_ids.insert(stray.edge_ids.begin(), 0);
+  stray.edge_ids.push_back(~std::uint64_t{0});
+  for (difmesh::Triangle& t : stray.triangles) {
+    t = {t[0] + 1, t[1] + 1, t[2] + 1};
+  }
+  const VertexScalars scalars = squares(mesh);
+  VertexScalars stray_scalars = scalars;
+  stray_scalars.values.insert(stray_scalars.values.begin(), -1e30);
+  stray_scalars.values.push_back(1e30);
+  for (const char* name : {"m.glb", "m.gltf", "m.drc", "c.glb"}) {
+    for (const DracoMethod method : {DracoMethod::edgebreaker, DracoMethod::sequential}) {
+      CAPTURE(name);
+      const difmesh::DracoOptions draco{.method = method};
+      const auto write = [&](const Mesh& what, const VertexScalars& with) {
+        if (name == std::string("m.drc")) {
+          return difmesh::write_drc(folder / name, what, {.scalars = {with}, .draco = draco});
+        }
+        difmesh::WriteGltfOptions options{.scalars = {with}};
+        if (name == std::string("c.glb")) {
+          options.draco = draco;
+        }
+        return difmesh::write_gltf(folder / name, what, options);
+      };
+      const auto plain = write(mesh, scalars);
+      const std::string bytes = test::read_bytes(folder / name);
+      const auto report = write(stray, stray_scalars);
+      CHECK(test::read_bytes(folder / name) == bytes);  // ranges, boxes, origin and all
+      CHECK(report.vertices == static_cast<std::int64_t>(mesh.positions.size()));
+      CHECK(report.position_error == plain.position_error);
+      CHECK(report.position_error < 1e-5 * 1.01);
+      const ScalarMesh back = difmesh::read_scalar_mesh(folder / name);
+      // float64 itself has steps of 1e-9 there.
+      check_by_ids(back.mesh, mesh, report.position_error + 2e-9);
+      CHECK(difmesh::measure(back.mesh).volume ==
+            doctest::Approx(difmesh::measure(mesh).volume).epsilon(1e-3));
+    }
+  }
+}
+
+TEST_CASE("draco holds meshes with more vertices than three per triangle") {
+  const TempFolder folder;
+  Mesh mesh;
+  mesh.positions = {{1, 0, 0}, {0, 1, 0}, {7, 7, 7}, {0, 0, 1}, {0.5, 0.5, 0.5}};
+  mesh.triangles = {{0, 1, 3}};
+  for (const DracoMethod method : {DracoMethod::edgebreaker, DracoMethod::sequential}) {
+    difmesh::write_drc(folder / "m.drc", mesh, {.draco = {.method = method}});
+    difmesh::write_gltf(folder / "m.glb", mesh, {.draco = {{.method = method}}});
+    for (const char* name : {"m.drc", "m.glb"}) {
+      const Mesh back = difmesh::read_mesh(folder / name);
+      CHECK(back.positions.size() == 3);
+      CHECK(difmesh::measure(back).area == doctest::Approx(std::sqrt(0.75)).epsilon(1e-3));
+    }
+  }
+}
+
 TEST_CASE("drc: no beginning of a good file is good and no changed byte harms") {
   const TempFolder folder;
   const Mesh mesh = test::ball(4);

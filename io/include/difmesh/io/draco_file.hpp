@@ -14,8 +14,8 @@
 namespace difmesh {
 
 enum class DracoMethod : std::uint8_t {
-  edgebreaker,  ///< smallest; vertices and triangles come in another order, vertices in no triangle
-                ///< and triangles without area by their indices are left out
+  edgebreaker,  ///< smallest; vertices and triangles come in another order, triangles without area
+                ///< by their indices are left out
   sequential,   ///< keeps the order of vertices and triangles; some three times as large
 };
 
@@ -40,7 +40,8 @@ struct WriteDrcOptions {
   DracoOptions draco = {};
 };
 
-/// Writes a .drc file: float32 positions, named attributes for edge ids and scalars. Where float32
+/// Writes a .drc file: float32 positions, named attributes for edge ids and scalars. Vertices that no
+/// triangle uses are left out: Draco holds no more than three per triangle. Where float32
 /// about zero would be coarser than an eighth of a step, positions are relative to the centre of
 /// the bounding box, which the metadata `difmesh_origin` holds as three float64.
 /// \throw Error as write_mesh(), invalid_argument for options out of range or scalars of another

@@ -23,7 +23,8 @@ enum class MeshFormat : std::uint8_t {
   off,  ///< text; positions and, as NOFF, normals bit for bit
   stl,  ///< binary; positions rounded to float32 by the format, nothing shared between triangles
   glb,  ///< binary glTF; positions rounded to float32 about the centre, with normals (computed where
-        ///< there are none) and edge ids; no empty mesh. Its options: gltf_file.hpp
+        ///< there are none) and edge ids; no empty mesh, and no vertices that no triangle uses. Its
+        ///< options: gltf_file.hpp
   gltf,  ///< the same as text
   drc,   ///< Draco: coordinates rounded to steps, the order changed; see draco_file.hpp
 };
