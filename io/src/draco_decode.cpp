@@ -29,40 +29,55 @@ class HeaderReader {
         fail_format(path_, "no data of Draco");
       }
     }
-    const unsigned version = byte() * 256U;
-    const unsigned minor = version + byte();
+    const unsigned major = byte();
+    version_ = 256U * major + byte();
     const std::uint8_t geometry = byte();
     const std::uint8_t method = byte();
-    const unsigned flags = byte() + 256U * byte();
-    if (minor < 0x0200 || minor > 0x0202) {
-      fail_format(path_, "Draco's data of version " + std::to_string(minor >> 8U) + "." +
-                             std::to_string(minor & 0xFFU) + "; 2.0 to 2.2 can be read");
+    const unsigned flag_byte = byte();
+    const unsigned flags = flag_byte + 256U * byte();
+    if (geometry == 0) {  // whose versions are others
+      fail_format(path_, "a point cloud of Draco, which has no triangles");
+    }
+    if (version_ < 0x0100 || version_ > 0x0202) {
+      fail_format(path_, "Draco's data of version " + std::to_string(version_ >> 8U) + "." +
+                             std::to_string(version_ & 0xFFU) + "; 1.0 to 2.2 can be read");
     }
     if (geometry != 1 || method > 1) {
-      fail_format(path_, geometry == 0 ? "a point cloud, no mesh" : "no mesh of Draco");
+      fail_format(path_, "no mesh of Draco");
     }
-    if ((flags & 0x8000U) != 0) {
+    if (version_ >= 0x0103 && (flags & 0x8000U) != 0) {
       skip_metadata();
     }
-    return method == 0 ? sequential() : edgebreaker(minor);
+    return method == 0 ? sequential() : edgebreaker();
   }
 
  private:
   DracoCounts sequential() {
     DracoCounts counts;
-    counts.faces = varint();
-    counts.points = varint();
+    counts.faces = number_since(0x0202);
+    counts.points = number_since(0x0202);
     return counts;
   }
-  DracoCounts edgebreaker(unsigned version) {
+  DracoCounts edgebreaker() {
     (void)byte();  // how the surface is walked
-    if (version < 0x0202) {
-      (void)varint();  // an older count of vertices
+    if (version_ < 0x0202) {
+      (void)number_since(0x0200);  // an older count of vertices
     }
     DracoCounts counts;
-    counts.points = varint();
-    counts.faces = varint();
+    counts.points = number_since(0x0200);
+    counts.faces = number_since(0x0200);
     return counts;
+  }
+  /// Of variable length since that version, of four bytes before.
+  std::uint64_t number_since(unsigned version) {
+    if (version_ >= version) {
+      return varint();
+    }
+    std::uint64_t number = byte();
+    for (unsigned shift = 8; shift < 32; shift += 8) {
+      number |= static_cast<std::uint64_t>(byte()) << shift;
+    }
+    return number;
   }
 
   void skip_metadata() {
@@ -112,6 +127,7 @@ class HeaderReader {
   const std::filesystem::path& path_;
   std::span<const char> bytes_;
   std::size_t at_ = 0;
+  unsigned version_ = 0;  ///< 256 for each major one
 };
 
 DracoKind kind_of(const draco::PointAttribute& attribute) {

@@ -2,6 +2,7 @@
 
 #include "drc.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "input_file.hpp"
 #include "memory.hpp"
 #include "mesh_check.hpp"
+#include "omissions.hpp"
 #include "packed_surface.hpp"
 #include "text.hpp"
 #include "used_part.hpp"
@@ -60,17 +62,92 @@ Array<Vec3> vectors_of(const std::filesystem::path& path, const DecodedAttribute
                           " components");
   }
   Array<Vec3> vectors(attribute.values.size() / 3);
-  for (std::size_t v = 0; v < vectors.size(); ++v) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      vectors[v][axis] = attribute.values[3 * v + axis];
-      if (!std::isfinite(vectors[v][axis])) {
-        fail_format(path,
-                    std::string(what) + " of Draco: not finite at point " + std::to_string(v));
+  std::copy(attribute.values.begin(), attribute.values.end(), vectors.data()->data());
+  return vectors;
+}
+
+/// The index of the first number that is not finite, if there is one.
+std::optional<std::size_t> first_not_finite(const DecodedAttribute& attribute) {
+  for (std::size_t i = 0; i < attribute.values.size(); ++i) {
+    if (!std::isfinite(attribute.values[i])) {
+      return i;
+    }
+  }
+  return std::nullopt;
+}
+
+/// Gathers the attributes that a mesh has.
+class DrcReader {
+ public:
+  DrcReader(const std::filesystem::path& path, DecodedDraco decoded)
+      : path_(path), decoded_(std::move(decoded)) {}
+
+  ScalarMesh read() {
+    mesh_.mesh.triangles = std::move(decoded_.triangles);
+    for (const DecodedAttribute& attribute : decoded_.attributes) {
+      add(attribute);
+    }
+    if (!with_positions_) {
+      fail_format(path_, "Draco's data hold no positions");
+    }
+    move_to_origin();
+    omissions_.add_to(mesh_.warnings, path_);
+    return std::move(mesh_);
+  }
+
+ private:
+  void add(const DecodedAttribute& attribute) {
+    if (attribute.kind == DracoKind::position && !with_positions_) {
+      add_positions(attribute);
+    } else if (attribute.kind == DracoKind::normal && mesh_.mesh.normals.empty()) {
+      if (is_finite(attribute, "an attribute of normals")) {
+        mesh_.mesh.normals = vectors_of(path_, attribute, "normals");
+      }
+    } else if (is_edge_ids(attribute)) {
+      mesh_.mesh.edge_ids = joined_digits(path_, attribute.values, 4);
+    } else if (attribute.kind == DracoKind::generic && attribute.components == 1 &&
+               !attribute.name.empty()) {
+      if (is_finite(attribute, "the attribute " + in_quotes(attribute.name))) {
+        mesh_.scalars.push_back({attribute.name, attribute.values});
       }
     }
   }
-  return vectors;
-}
+
+  void add_positions(const DecodedAttribute& attribute) {
+    mesh_.mesh.positions = vectors_of(path_, attribute, "positions");
+    with_positions_ = true;
+    if (const std::optional<std::size_t> bad = first_not_finite(attribute)) {
+      fail_format(path_, "positions of Draco: not finite at point " + std::to_string(*bad / 3));
+    }
+  }
+
+  /// Surfaces can do without other numbers.
+  bool is_finite(const DecodedAttribute& attribute, const std::string& place) {
+    if (!first_not_finite(attribute)) {
+      return true;
+    }
+    omissions_.note(place, "is not finite everywhere, and was left out");
+    return false;
+  }
+
+  void move_to_origin() {
+    const Vec3 origin = decoded_.origin.value_or(Vec3{0, 0, 0});
+    for (Vec3& position : mesh_.mesh.positions) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        position[axis] += origin[axis];
+        if (!std::isfinite(position[axis])) {
+          fail_format(path_, "the origin in Draco's metadata is not finite");
+        }
+      }
+    }
+  }
+
+  const std::filesystem::path& path_;
+  DecodedDraco decoded_;
+  ScalarMesh mesh_;
+  Omissions omissions_;
+  bool with_positions_ = false;
+};
 
 MeshFileReport write_used(const std::filesystem::path& path, const Mesh& mesh,
                           const WriteDrcOptions& options) {
@@ -116,36 +193,7 @@ MeshFileReport write_drc(const std::filesystem::path& path, const Mesh& mesh,
 namespace detail {
 
 ScalarMesh decode_drc(const std::filesystem::path& path, std::span<const char> bytes) {
-  DecodedDraco decoded = decode_draco(path, bytes);
-  ScalarMesh result;
-  result.mesh.triangles = std::move(decoded.triangles);
-  bool with_positions = false;
-  for (const DecodedAttribute& attribute : decoded.attributes) {
-    if (attribute.kind == DracoKind::position && !with_positions) {
-      result.mesh.positions = vectors_of(path, attribute, "positions");
-      with_positions = true;
-    } else if (attribute.kind == DracoKind::normal && result.mesh.normals.empty()) {
-      result.mesh.normals = vectors_of(path, attribute, "normals");
-    } else if (is_edge_ids(attribute)) {
-      result.mesh.edge_ids = joined_digits(path, attribute.values, 4);
-    } else if (attribute.kind == DracoKind::generic && attribute.components == 1 &&
-               !attribute.name.empty()) {
-      result.scalars.push_back({attribute.name, attribute.values});
-    }
-  }
-  if (!with_positions) {
-    fail_format(path, "Draco's data hold no positions");
-  }
-  const Vec3 origin = decoded.origin.value_or(Vec3{0, 0, 0});
-  for (Vec3& position : result.mesh.positions) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      position[axis] += origin[axis];
-      if (!std::isfinite(position[axis])) {
-        fail_format(path, "the origin in Draco's metadata is not finite");
-      }
-    }
-  }
-  return result;
+  return DrcReader(path, decode_draco(path, bytes)).read();
 }
 
 Array<std::uint64_t> joined_digits(const std::filesystem::path& path, const Array<double>& digits,

@@ -1,7 +1,9 @@
 #include "difmesh/io/draco_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <string>
@@ -246,6 +248,71 @@ TEST_CASE("draco holds meshes with more vertices than three per triangle") {
       CHECK(difmesh::measure(back).area == doctest::Approx(std::sqrt(0.75)).epsilon(1e-3));
     }
   }
+}
+
+TEST_CASE("drc: normals and scalars that are not finite are left out") {
+  const TempFolder folder;
+  // A float that both attributes hold and no position, so that its bytes can be found and changed.
+  Mesh mesh = test::sheet(3);
+  mesh.normals.assign(9, {0, 0, 1});
+  const VertexScalars scalars{"k", difmesh::Array<double>(9, 0.3)};
+  difmesh::write_drc(folder / "m.drc", mesh, {.scalars = {scalars}});
+  std::string bytes = test::read_bytes(folder / "m.drc");
+  CHECK(difmesh::read_scalar_mesh(folder / "m.drc").warnings.empty());
+  // The low end of the scalars' range, from which all are counted.
+  const std::size_t low = bytes.find(test::bytes_of(0.3F));
+  REQUIRE(low != std::string::npos);
+  bytes.replace(low, 4, test::bytes_of(std::numeric_limits<float>::quiet_NaN()));
+  const auto path = folder.file("m.drc", bytes);
+  const ScalarMesh found = difmesh::read_scalar_mesh(path);
+  CHECK(found.mesh.triangles.size() == 8);
+  CHECK(found.mesh.normals.size() == 9);
+  CHECK(found.scalars.empty());
+  REQUIRE(found.warnings.size() == 1);
+  CHECK(found.warnings[0] ==
+        "'" + path.string() + "': the attribute 'k' is not finite everywhere, and was left out.");
+}
+
+TEST_CASE("drc: older bitstreams are read by the letter of their versions") {
+  // A tetrahedron of Draco's plainest kind: indices in bytes, coordinates as they are.
+  const auto bitstream = [](char major, char minor, char geometry) {
+    const auto number = [&](std::uint32_t value, bool is_long) {
+      return is_long ? test::bytes_of(value) : std::string(1, static_cast<char>(value));
+    };
+    const int version = 10 * major + minor;
+    std::string bytes = "DRACO";
+    bytes += {major, minor, geometry, 0, 0, 0};                           // sequential, no flags
+    bytes += number(4, version < 22) + number(4, version < 22);           // faces and points
+    bytes += std::string("\1\0\2\1\0\1\3\1\2\3\0\3\2", 13);               // plain indices
+    bytes += '\1' + number(1, version < 20);                              // a decoder, an attribute
+    bytes += std::string("\0\x9\3\0", 4);                                 // positions, 3 x float32
+    bytes += version < 13 ? std::string(2, '\0') : std::string(1, '\0');  // their id
+    bytes += '\0';                                                        // as they are
+    for (const float x : {0.F, 0.F, 0.F, 2.F, 0.F, 0.F, 0.F, 3.F, 0.F, 0.F, 0.F, 4.F}) {
+      bytes += test::bytes_of(x);
+    }
+    return bytes;
+  };
+  const TempFolder folder;
+  const auto read = [&](char major, char minor, char geometry = 1) {
+    return difmesh::read_mesh(folder.file("m.drc", bitstream(major, minor, geometry)));
+  };
+  for (const auto& [major, minor] :
+       {std::array<char, 2>{1, 0}, {1, 1}, {1, 2}, {1, 3}, {2, 0}, {2, 1}, {2, 2}}) {
+    const std::string version = std::to_string(major) + "." + std::to_string(minor);
+    CAPTURE(version);
+    const Mesh mesh = read(major, minor);
+    CHECK(mesh.positions == difmesh::Array<Vec3>{{0, 0, 0}, {2, 0, 0}, {0, 3, 0}, {0, 0, 4}});
+    CHECK(difmesh::measure(mesh).volume == doctest::Approx(4.0));
+  }
+  const auto refused = [&](char major, char minor, char geometry, const char* word) {
+    test::check_error([&] { (void)read(major, minor, geometry); }, ErrorCode::file_format, {word});
+  };
+  refused(0, 9, 1, "version 0.9; 1.0 to 2.2");
+  refused(2, 3, 1, "version 2.3");
+  refused(2, 3, 0, "a point cloud of Draco, which has no triangles");
+  refused(1, 1, 0, "a point cloud of Draco, which has no triangles");
+  refused(2, 2, 2, "no mesh of Draco");
 }
 
 TEST_CASE("drc: no beginning of a good file is good and no changed byte harms") {

@@ -50,8 +50,9 @@ struct WriteDrcOptions {
 MeshFileReport write_drc(const std::filesystem::path& path, const Mesh& mesh,
                          const WriteDrcOptions& options = {});
 
-/// Reads a .drc file of any encoder: positions, normals, and single-component generic attributes
-/// that have a name. `difmesh_origin` is added. Files of difmesh's own come back with edge ids.
+/// Reads a .drc file of any encoder since bitstream 1.0: positions, normals, and generic attributes of
+/// one component that have a name. `difmesh_origin` is added. Files of difmesh's own come back with
+/// edge ids. Normals and scalars that are not finite are left out with a warning.
 /// \throw Error as read_mesh(); also for point clouds.
 [[nodiscard]] ScalarMesh read_drc(const std::filesystem::path& path);
 
