@@ -57,26 +57,33 @@ std::optional<std::vector<char>> from_base64(std::string_view text) {
   while (!text.empty() && text.back() == '=') {
     text.remove_suffix(1);
   }
-  std::vector<char> bytes;
-  bytes.reserve(text.size() / 4 * 3 + 3);
-  std::uint32_t bits = 0;
-  unsigned count = 0;
-  for (const char c : text) {
-    const std::int8_t value = kValues[static_cast<unsigned char>(c)];
-    if (value < 0) {
-      return std::nullopt;
-    }
-    bits = (bits << 6U) | static_cast<std::uint32_t>(value);
-    count += 6;
-    if (count >= 8) {
-      count -= 8;
-      bytes.push_back(static_cast<char>((bits >> count) & 0xFFU));
-    }
-  }
-  if (count >= 6) {
+  const std::size_t rest = text.size() % 4;
+  if (rest == 1) {
     return std::nullopt;  // a last digit that adds no byte
   }
-  return bytes;
+  std::vector<char> bytes(text.size() / 4 * 3 + (rest > 0 ? rest - 1 : 0));
+  std::int32_t all = 0;  // negative as soon as one value is
+  const auto value = [&](std::size_t at) {
+    const std::int32_t digit = kValues[static_cast<unsigned char>(text[at])];
+    all |= digit;
+    return static_cast<std::uint32_t>(digit);
+  };
+  char* out = bytes.data();
+  for (std::size_t at = 0; at + 4 <= text.size(); at += 4) {
+    const std::uint32_t bits =
+        (value(at) << 18U) | (value(at + 1) << 12U) | (value(at + 2) << 6U) | value(at + 3);
+    *out++ = static_cast<char>((bits >> 16U) & 0xFFU);
+    *out++ = static_cast<char>((bits >> 8U) & 0xFFU);
+    *out++ = static_cast<char>(bits & 0xFFU);
+  }
+  std::uint32_t bits = 0;
+  for (std::size_t digit = 0; digit < rest; ++digit) {
+    bits |= value(text.size() - rest + digit) << (18U - 6U * static_cast<std::uint32_t>(digit));
+  }
+  for (std::size_t byte = 0; byte + 1 < rest; ++byte) {
+    *out++ = static_cast<char>((bits >> (16U - 8U * static_cast<std::uint32_t>(byte))) & 0xFFU);
+  }
+  return all < 0 ? std::nullopt : std::optional(std::move(bytes));
 }
 
 }  // namespace difmesh::detail

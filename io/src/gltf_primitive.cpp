@@ -32,12 +32,13 @@ class PrimitiveReader {
     if (positions.components != 3) {
       positions.place.fail("holds positions, but is no VEC3");
     }
-    if (positions.bytes == nullptr) {
-      decode(positions);
+    if (positions.bytes == nullptr && place_.has("extensions") &&
+        place_.at("extensions").has(kDraco)) {
+      decode();
     }
     const auto count = static_cast<std::uint64_t>(place_.at("attributes").value().size());
     budget_.take(place_, vertices_ * (24U + 8U * count));
-    surface_.content.mesh.positions = vectors("POSITION", positions);
+    surface_.content.mesh.positions = *vectors("POSITION", positions);
     read_attributes();
     if (decoded_) {
       surface_.content.mesh.triangles = std::move(decoded_->triangles);
@@ -48,10 +49,7 @@ class PrimitiveReader {
   }
 
  private:
-  void decode(const AccessorView& positions) {
-    if (!place_.has("extensions") || !place_.at("extensions").has(kDraco)) {
-      positions.place.fail("has no bufferView");
-    }
+  void decode() {
     const JsonPlace extension = place_.at("extensions").at(kDraco);
     if (place_.whole_or("mode", kTriangles) != kTriangles) {
       place_.fail("is compressed, but no list of triangles");
@@ -66,6 +64,7 @@ class PrimitiveReader {
     }
     std::vector<std::uint32_t> ids;
     const JsonPlace attributes = extension.at("attributes");
+    (void)attributes.at("POSITION");
     for (const auto& [name, id] : attributes.value().items()) {
       ids.push_back(static_cast<std::uint32_t>(attributes.at(name.c_str()).whole()));
     }
@@ -91,13 +90,15 @@ class PrimitiveReader {
       }
       const bool is_word = view.type == 5123 && !view.normalized;
       if (name == "NORMAL" && view.components == 3) {
-        surface_.content.mesh.normals = vectors(name, view);
+        surface_.content.mesh.normals = vectors(name, view).value_or(Array<Vec3>());
       } else if (name == "_EDGE_ID" && view.components == 4 && is_word) {
-        surface_.content.mesh.edge_ids = joined_digits(source_.path(), numbers(name, view), 4);
+        surface_.content.mesh.edge_ids = joined_digits(source_.path(), *numbers(name, view), 4);
       } else if (name == "_VERTEX" && view.components == 2 && is_word) {
-        surface_.whole_index = joined_digits(source_.path(), numbers(name, view), 2);
+        surface_.whole_index = joined_digits(source_.path(), *numbers(name, view), 2);
       } else if (name[0] == '_' && view.components == 1) {
-        surface_.content.scalars.push_back({lower_case(name.substr(1)), numbers(name, view)});
+        if (std::optional<Array<double>> values = numbers(name, view)) {
+          surface_.content.scalars.push_back({lower_case(name.substr(1)), std::move(*values)});
+        }
       }
     }
   }
@@ -119,40 +120,58 @@ class PrimitiveReader {
     ids.at(name.c_str()).fail("is " + std::to_string(id) + ", which Draco's data do not hold");
   }
 
-  /// Component by component, all finite.
-  Array<double> numbers(const std::string& name, const AccessorView& view) const {
-    Array<double> result;
-    if (decoded_ && view.bytes == nullptr) {
-      result = in_draco(name, view).values;
-      for (double& value : result) {
-        value = view.scaled(value);
-      }
-    } else {
-      if (view.bytes == nullptr) {
-        view.place.fail("has no bufferView");
-      }
-      result.resize(view.count * view.components);
-      for (std::size_t e = 0, at = 0; e < view.count; ++e) {
-        for (std::size_t c = 0; c < view.components; ++c) {
-          result[at++] = view.number(e, c);
-        }
-      }
-    }
-    for (std::size_t i = 0; i < result.size(); ++i) {
-      if (!std::isfinite(result[i])) {
-        view.place.fail("is not finite at element " + std::to_string(i / view.components));
-      }
-    }
-    return result;
+  [[nodiscard]] bool is_in_draco(const std::string& name) const {
+    return decoded_ && place_.at("extensions").at(kDraco).at("attributes").has(name.c_str());
   }
 
-  Array<Vec3> vectors(const std::string& name, const AccessorView& view) const {
-    const Array<double> flat = numbers(name, view);
-    Array<Vec3> result(flat.size() / 3);
-    for (std::size_t v = 0; v < result.size(); ++v) {
-      result[v] = {flat[3 * v], flat[3 * v + 1], flat[3 * v + 2]};
+  /// Component by component; without bytes zeros, as the standard says.
+  void read_numbers(const std::string& name, const AccessorView& view, double* out) const {
+    if (view.bytes == nullptr && is_in_draco(name)) {
+      for (const double value : in_draco(name, view).values) {
+        *out++ = view.scaled(value);
+      }
+      return;
     }
-    return result;
+    for (std::size_t e = 0; e < view.count; ++e) {
+      for (std::size_t c = 0; c < view.components; ++c) {
+        *out++ = view.number(e, c);
+      }
+    }
+  }
+
+  /// Whether all numbers are finite. Surfaces can do without normals and scalars that are not, but
+  /// not without positions.
+  bool check_finite(const std::string& name, const AccessorView& view,
+                    const double* numbers) const {
+    const double* const end = numbers + view.count * view.components;
+    const double* const bad =
+        std::find_if(numbers, end, [](double number) { return !std::isfinite(number); });
+    if (bad == end) {
+      return true;
+    }
+    if (name == "POSITION") {
+      view.place.fail("is not finite at element " +
+                      std::to_string(static_cast<std::size_t>(bad - numbers) / view.components));
+    }
+    source_.omissions().note(place_.at("attributes").at(name.c_str()).place(),
+                             "is not finite everywhere, and was left out");
+    return false;
+  }
+
+  [[nodiscard]] std::optional<Array<double>> numbers(const std::string& name,
+                                                     const AccessorView& view) const {
+    Array<double> result(view.count * view.components);
+    read_numbers(name, view, result.data());
+    return check_finite(name, view, result.data()) ? std::optional(std::move(result))
+                                                   : std::nullopt;
+  }
+
+  [[nodiscard]] std::optional<Array<Vec3>> vectors(const std::string& name,
+                                                   const AccessorView& view) const {
+    Array<Vec3> result(view.count);
+    read_numbers(name, view, result.data()->data());
+    return check_finite(name, view, result.data()->data()) ? std::optional(std::move(result))
+                                                           : std::nullopt;
   }
 
   void read_triangles() {
@@ -162,7 +181,7 @@ class PrimitiveReader {
       view = source_.accessor(place_.at("indices"));
       count = view->count;
       const bool is_unsigned = view->type == 5121 || view->type == 5123 || view->type == 5125;
-      if (view->components != 1 || !is_unsigned || view->normalized || view->bytes == nullptr) {
+      if (view->components != 1 || !is_unsigned || view->normalized) {
         view->place.fail("holds no indices");
       }
     }
@@ -311,7 +330,13 @@ GltfSurface read_gltf_mesh(GltfSource& source, const JsonPlace& mesh, Budget& bu
     if (mode > kFan) {
       primitive.at("mode").fail("is " + std::to_string(mode));
     }
-    if (mode >= kTriangles) {  // not points and lines
+    if (mode < kTriangles) {
+      source.omissions().note(primitive.place(), "holds points or lines, and was left out");
+    } else if (!primitive.at("attributes").value().is_object()) {
+      primitive.at("attributes").fail("is no object");
+    } else if (!primitive.at("attributes").has("POSITION")) {
+      source.omissions().note(primitive.place(), "has no POSITION, and was left out");
+    } else {
       append(surface, PrimitiveReader(source, primitive, budget).read(), source.path());
     }
   }

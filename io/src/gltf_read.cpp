@@ -10,22 +10,16 @@
 
 #include "difmesh/float_environment.hpp"
 #include "difmesh/io/gltf_file.hpp"
+#include "gltf_extensions.hpp"
 #include "gltf_primitive.hpp"
 #include "gltf_source.hpp"
 #include "input_file.hpp"
 #include "memory.hpp"
+#include "text.hpp"
 
 namespace difmesh {
 namespace detail {
 namespace {
-
-/// Extensions that a file may require: those that we know, and those that leave geometry alone.
-bool is_harmless(std::string_view extension) {
-  return extension == "KHR_draco_mesh_compression" || extension == "KHR_mesh_quantization" ||
-         extension.starts_with("KHR_materials_") || extension.starts_with("KHR_texture_") ||
-         extension.starts_with("EXT_texture_") || extension == "KHR_lights_punctual" ||
-         extension == "KHR_xmp_json_ld";
-}
 
 /// x -> linear x + shift.
 struct Affine {
@@ -155,6 +149,33 @@ void move(ScalarMesh& content, const Affine& transform, const JsonPlace& node) {
   }
 }
 
+bool is_hidden(const JsonPlace& node) {
+  if (!node.has("extensions") || !node.at("extensions").has("KHR_node_visibility")) {
+    return false;
+  }
+  const JsonPlace visibility = node.at("extensions").at("KHR_node_visibility");
+  return visibility.has("visible") && visibility.at("visible").value() == false;
+}
+
+/// The node's weights come before the mesh's.
+bool is_morphed(const JsonPlace& node, const JsonPlace& mesh) {
+  const JsonPlace& holder = node.has("weights") ? node : mesh;
+  if (!holder.has("weights")) {
+    return false;
+  }
+  bool is_zero = true;
+  const JsonPlace weights = holder.at("weights");
+  for (std::size_t w = 0; w < weights.size(); ++w) {
+    is_zero = is_zero && weights.at(w).value() == 0;
+  }
+  const JsonPlace primitives = mesh.at("primitives");
+  bool with_targets = false;
+  for (std::size_t p = 0; p < primitives.size(); ++p) {
+    with_targets = with_targets || primitives.at(p).has("targets");
+  }
+  return !is_zero && with_targets;
+}
+
 bool is_identity(const Affine& transform) {
   const Affine none;
   return transform.linear == none.linear && transform.shift == none.shift;
@@ -174,7 +195,11 @@ class SceneReader {
       stack_.pop_back();
       visit(next);
     }
-    whole_.content.warnings = std::move(source_.warnings());
+    if (!with_mesh_ && source_.count("meshes") > 0) {
+      source_.root().at("meshes").fail(
+          "hang on no node of the scene; meshes without a place are not supported");
+    }
+    whole_.content.warnings = source_.warnings();
     return std::move(whole_.content);
   }
 
@@ -184,15 +209,35 @@ class SceneReader {
     Affine above;
   };
 
-  void check_extensions() const {
-    if (source_.count("extensionsRequired") == 0) {
-      return;
-    }
-    const JsonPlace required = source_.root().at("extensionsRequired");
-    for (std::size_t i = 0; i < required.size(); ++i) {
-      if (!is_harmless(required.at(i).text())) {
-        required.at(i).fail("is " + required.at(i).text() + ", which is not supported");
+  void check_extensions() {
+    for (std::size_t i = 0; i < source_.count("extensionsRequired"); ++i) {
+      const JsonPlace required = source_.root().at("extensionsRequired").at(i);
+      if (!can_be_required(required.text())) {
+        required.fail("is " + required.text() + ", which is not supported");
       }
+    }
+    for (std::size_t i = 0; i < source_.count("extensionsUsed"); ++i) {
+      const std::string& used = source_.root().at("extensionsUsed").at(i).text();
+      if (kind_of_extension(used) == ExtensionKind::unknown) {
+        source_.omissions().note("the extension " + in_quotes(used),
+                                 "is not known here, and what it changes was left out");
+      }
+    }
+  }
+
+  /// What viewers show otherwise than it is read.
+  void note_omissions(const JsonPlace& node, const JsonPlace& mesh) {
+    Omissions& omissions = source_.omissions();
+    if (node.has("skin")) {
+      omissions.note(node.place(), "has a skin, and its mesh was read as it is without bones");
+    }
+    if (node.has("extensions") && node.at("extensions").has("EXT_mesh_gpu_instancing")) {
+      omissions.note(node.place(),
+                     "has copies of its mesh by EXT_mesh_gpu_instancing, and one was read");
+    }
+    if (is_morphed(node, mesh)) {
+      omissions.note(node.has("weights") ? node.place() : mesh.place(),
+                     "has morph weights other than 0, and was read without its morph targets");
     }
   }
 
@@ -238,6 +283,10 @@ class SceneReader {
                          " again; nodes have one parent and no cycles");
     }
     seen_[number] = true;
+    if (is_hidden(node)) {
+      source_.omissions().note(node.place(),
+                               "is hidden by KHR_node_visibility, and was read all the same");
+    }
     const Affine transform = pending.above.after(transform_of(node));
     if (node.has("mesh")) {
       add_mesh(node, transform);
@@ -248,8 +297,10 @@ class SceneReader {
   }
 
   void add_mesh(const JsonPlace& node, const Affine& transform) {
-    GltfSurface surface =
-        read_gltf_mesh(source_, source_.element("meshes", node.at("mesh")), budget_);
+    const JsonPlace mesh = source_.element("meshes", node.at("mesh"));
+    with_mesh_ = true;
+    note_omissions(node, mesh);
+    GltfSurface surface = read_gltf_mesh(source_, mesh, budget_);
     budget_.take(node, surface.bytes());
     if (!is_identity(transform)) {
       move(surface.content, transform, node);
@@ -263,6 +314,7 @@ class SceneReader {
   std::vector<Pending> stack_;
   std::deque<nlohmann::json> indices_;  ///< of roots that no scene names
   GltfSurface whole_;
+  bool with_mesh_ = false;
 };
 
 ScalarMesh read_scene(GltfSource& source) {

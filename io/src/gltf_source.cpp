@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::uint64_t kMostWhole = std::uint64_t{1} << 53U;  // what JSON's readers agree on
 constexpr std::size_t kMostFiles = 256;
+constexpr std::size_t kMostElements = 0xFFFFFFFF;
 
 struct ComponentType {
   int id;
@@ -26,6 +27,9 @@ struct ComponentType {
 };
 constexpr std::array<ComponentType, 6> kComponentTypes{
     {{5120, 1}, {5121, 1}, {5122, 2}, {5123, 2}, {5125, 4}, {5126, 4}}};
+constexpr std::string_view kDataStart = "\"data:";
+constexpr std::size_t kLongUri = 1024;
+constexpr std::string_view kTaken = "data:;difmesh,";  ///< and a number
 constexpr std::array<std::string_view, 4> kTypes{"SCALAR", "VEC2", "VEC3", "VEC4"};
 
 std::uint32_t u32_at(std::span<const char> bytes, std::size_t offset) {
@@ -139,6 +143,9 @@ double AccessorView::scaled(double whole) const {
 }
 
 double AccessorView::number(std::size_t element, std::size_t component) const {
+  if (bytes == nullptr) {
+    return 0.0;
+  }
   const char* const row = bytes + element * stride;
   switch (type) {
     case 5120:
@@ -157,6 +164,9 @@ double AccessorView::number(std::size_t element, std::size_t component) const {
 }
 
 std::uint64_t AccessorView::whole(std::size_t element, std::size_t component) const {
+  if (bytes == nullptr) {
+    return 0;
+  }
   const char* const row = bytes + element * stride;
   switch (type) {
     case 5121:
@@ -173,6 +183,7 @@ GltfSource::GltfSource(std::filesystem::path path, Array<char> bytes, OtherFiles
   if (bytes_.size() >= 4 && u32_at(bytes_, 0) == 0x46546C67) {
     parse_container();
   } else {
+    check_is_container();
     text_ = plain_text(path_, {bytes_.data(), bytes_.size()});
   }
   parse();
@@ -217,16 +228,64 @@ void GltfSource::parse_container() {
   }
 }
 
+/// Text is welcome under the name of a .glb, but what is neither is no JSON either.
+void GltfSource::check_is_container() const {
+  const std::string_view start =
+      trimmed({bytes_.data(), std::min<std::size_t>(bytes_.size(), 256)});
+  if (extension_of(path_) == ".glb" && !start.starts_with('{') && !start.starts_with('[') &&
+      !start.starts_with("\xEF\xBB\xBF")) {
+    fail_format(path_, bytes_.empty() ? "no .glb file: it is empty"
+                                      : "no .glb file: it starts with " +
+                                            in_quotes({bytes_.data(),
+                                                       std::min<std::size_t>(bytes_.size(), 4)}) +
+                                            ", not 'glTF'");
+  }
+}
+
+/// The text with short URIs in the place of long ones that hold data. The parser goes byte by byte,
+/// and copies strings several times: 192 MB took 14 s and 1.3 GB.
+std::string GltfSource::take_data_out() {
+  std::string text;
+  std::size_t done = 0;
+  for (std::size_t at = text_.find(kDataStart); at != std::string_view::npos;
+       at = text_.find(kDataStart, at + 1)) {
+    const std::size_t end = text_.find('"', at + 1);
+    const bool is_escaped = at > 0 && text_[at - 1] == '\\';
+    if (is_escaped || end == std::string_view::npos || end - at < kLongUri) {
+      continue;
+    }
+    const std::string_view uri = text_.substr(at + 1, end - at - 1);
+    if (uri.find('\\') != std::string_view::npos) {
+      continue;  // the parser knows escapes
+    }
+    text += text_.substr(done, at - done);
+    text += '"' + std::string(kTaken) + std::to_string(long_uris_.size()) + '"';
+    long_uris_.push_back(uri);
+    done = end + 1;
+    at = end;
+  }
+  return done > 0 ? text + std::string(text_.substr(done)) : text;
+}
+
 void GltfSource::parse() {
+  const std::string shortened = take_data_out();
   try {
-    json_ = nlohmann::json::parse(text_);
+    json_ = nlohmann::json::parse(long_uris_.empty() ? text_ : std::string_view(shortened));
   } catch (const nlohmann::json::exception& error) {
-    fail_format(path_, std::string("no JSON: ") + error.what());
+    // What follows is what was read last, which may be all of the file.
+    const std::string_view what = error.what();
+    fail_format(path_, "no JSON: " + std::string(what.substr(0, what.find("; last read"))));
   }
   const std::string& version = root().at("asset").at("version").text();
   if (!version.starts_with("2.")) {
     fail_format(path_, "glTF of version " + in_quotes(version) + ", not 2");
   }
+}
+
+std::vector<std::string> GltfSource::warnings() const {
+  std::vector<std::string> warnings = warnings_;
+  omissions_.add_to(warnings, path_);
+  return warnings;
 }
 
 std::size_t GltfSource::count(const char* array) const {
@@ -264,6 +323,10 @@ AccessorView GltfSource::accessor(const JsonPlace& index) {
     place.at("count").fail("is 0");
   }
   if (!place.has("bufferView")) {
+    if (view.count > kMostElements) {
+      place.at("count").fail("is " + std::to_string(view.count) +
+                             ", more than 32-bit indices name");
+    }
     return view;
   }
   const std::span<const char> bytes = this->view(place.at("bufferView"));
@@ -285,8 +348,21 @@ AccessorView GltfSource::accessor(const JsonPlace& index) {
   return view;
 }
 
+/// Where the extension is not required, the buffer may hold the data as they are.
+void GltfSource::check_compression(const JsonPlace& view) const {
+  const JsonPlace index = view.at("buffer");
+  const JsonPlace buffer = element("buffers", index);
+  const bool has_data = buffer.has("uri") || (binary_ && index.whole() == 0);
+  for (const char* extension : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+    if (!has_data && view.has("extensions") && view.at("extensions").has(extension)) {
+      view.fail(std::string("is compressed by ") + extension + ", which is not supported");
+    }
+  }
+}
+
 std::span<const char> GltfSource::view(const JsonPlace& index) {
   const JsonPlace place = element("bufferViews", index);
+  check_compression(place);
   const std::span<const char> bytes = buffer(place.at("buffer"));
   const std::uint64_t offset = place.whole_or("byteOffset", 0);
   const std::uint64_t length = place.at("byteLength").whole();
@@ -317,22 +393,29 @@ std::span<const char> GltfSource::buffer(const JsonPlace& index) {
 }
 
 std::span<const char> GltfSource::load(const std::string& uri, const JsonPlace& place) {
-  const auto known = loaded_.find(uri);
-  if (known != loaded_.end()) {
-    return known->second;
-  }
   if (!lower_case(uri.substr(0, 5)).starts_with("data:")) {
     return load_file(uri, place);
   }
-  const std::size_t comma = uri.find(',');
-  if (comma == std::string::npos || !lower_case(uri.substr(0, comma)).ends_with(";base64")) {
+  const auto known = loaded_.find(place.place());
+  if (known != loaded_.end()) {
+    return known->second;
+  }
+  std::string_view text = uri;
+  if (text.starts_with(kTaken)) {
+    const std::optional<std::int64_t> number = to_integer(text.substr(kTaken.size()));
+    if (number && *number >= 0 && *number < static_cast<std::int64_t>(long_uris_.size())) {
+      text = long_uris_[static_cast<std::size_t>(*number)];
+    }
+  }
+  const std::size_t comma = text.find(',');
+  if (comma == std::string::npos || !lower_case(text.substr(0, comma)).ends_with(";base64")) {
     place.fail("holds data that are not base64");
   }
-  std::optional<std::vector<char>> bytes = from_base64(std::string_view(uri).substr(comma + 1));
+  std::optional<std::vector<char>> bytes = from_base64(text.substr(comma + 1));
   if (!bytes) {
     place.fail("holds data that are no base64");
   }
-  return loaded_.emplace(uri, std::move(*bytes)).first->second;
+  return loaded_.emplace(place.place(), std::move(*bytes)).first->second;
 }
 
 /// Files in the folder of the glTF file or below, unless all are allowed; see linked_file.hpp.

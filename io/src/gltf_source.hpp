@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "difmesh/mesh.hpp"
+#include "omissions.hpp"
 
 namespace difmesh::detail {
 
@@ -59,7 +60,7 @@ struct AccessorView {
   std::size_t components = 0;
   int type = 0;  ///< glTF's componentType
   bool normalized = false;
-  const char* bytes = nullptr;  ///< none where the accessor has no view, as Draco's have
+  const char* bytes = nullptr;  ///< none where the accessor has no view: Draco's, or all zero
   std::size_t stride = 0;
 
   [[nodiscard]] bool is_float() const { return type == 5126; }
@@ -89,12 +90,16 @@ class GltfSource {
   [[nodiscard]] AccessorView accessor(const JsonPlace& index);
   [[nodiscard]] std::span<const char> view(const JsonPlace& index);
 
-  /// Of all that was read so far.
-  [[nodiscard]] std::vector<std::string>& warnings() { return warnings_; }
+  /// What was left out of what was read so far.
+  [[nodiscard]] Omissions& omissions() { return omissions_; }
+  [[nodiscard]] std::vector<std::string> warnings() const;
 
  private:
   void parse();
   void parse_container();
+  void check_is_container() const;
+  std::string take_data_out();
+  void check_compression(const JsonPlace& view) const;
   std::span<const char> buffer(const JsonPlace& index);
   std::span<const char> load(const std::string& uri, const JsonPlace& place);
   std::span<const char> load_file(const std::string& uri, const JsonPlace& place);
@@ -107,7 +112,9 @@ class GltfSource {
   std::optional<std::span<const char>> binary_;
   std::uint64_t bytes_read_ = 0;
   std::map<std::string, std::vector<char>, std::less<>> loaded_;
+  std::vector<std::string_view> long_uris_;  ///< in the text, which the parser did not see
   std::vector<std::string> warnings_;
+  Omissions omissions_;
 };
 
 }  // namespace difmesh::detail

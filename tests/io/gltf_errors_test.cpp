@@ -61,7 +61,10 @@ Json& draco_of(Json& json) {
 
 TEST_CASE("glb: bad containers") {
   const std::string bytes = good(false).bytes();
-  check_refused("", {"m.glb", "JSON"});
+  check_refused("", {"m.glb", "no .glb file", "empty"});
+  check_refused("solid cube\n", {"no .glb file", "starts with 'soli'"});
+  check_refused("\x89PNG\r\n", {"no .glb file"});
+  check_refused(std::string(1, '\0') + "\xff", {"no .glb file", R"('\x00\xff')"});
   check_refused("glTF", {"truncated"});
   check_refused(bytes.substr(0, 19), {"truncated", "19 bytes"});
   std::string changed = bytes;
@@ -104,8 +107,18 @@ TEST_CASE("gltf: bad lengths and counts and offsets and types") {
   check_change([](Json& j) { accessor(j, "POSITION")["componentType"] = 5130; }, {"no vector"});
   check_change([](Json& j) { accessor(j, "POSITION")["byteOffset"] = 4; }, {"accessors[0]"});
   check_change([](Json& j) { accessor(j, "POSITION")["sparse"] = Json::object(); }, {"sparse"});
-  check_change([](Json& j) { accessor(j, "POSITION").erase("bufferView"); },
-               {"accessors[0] has no bufferView"});
+  check_change(
+      [](Json& j) {
+        accessor(j, "POSITION").erase("bufferView");
+        accessor(j, "POSITION")["count"] = 4294967296;
+      },
+      {"accessors[0].count is 4294967296"});
+  check_change(
+      [](Json& j) {
+        accessor(j, "POSITION").erase("bufferView");
+        accessor(j, "POSITION")["count"] = 1000000;
+      },
+      {"bytes of memory", "trusted"});
   check_change([](Json& j) { accessor(j, "POSITION")["bufferView"] = 77; },
                {"accessors[0].bufferView is 77"});
   check_change([](Json& j) { accessor(j, "NORMAL")["count"] = 3; }, {"3 elements for"});
@@ -131,9 +144,12 @@ TEST_CASE("gltf: bad indices and primitives and scenes") {
   check_change([](Json& j) { accessor(j, "indices")["componentType"] = 5122; }, {"no indices"});
   check_change([](Json& j) { j["meshes"][0]["primitives"][0]["indices"] = 99; }, {"99"});
   check_change([](Json& j) { j["meshes"][0]["primitives"][0]["mode"] = 7; }, {"mode is 7"});
-  check_change([](Json& j) { j["meshes"][0]["primitives"][0]["attributes"].erase("POSITION"); },
-               {"has no POSITION"});
-  check_change([](Json& j) { j["meshes"][0]["primitives"][0]["attributes"] = 3; }, {"POSITION"});
+  check_change([](Json& j) { j["meshes"][0]["primitives"][0]["attributes"] = 3; },
+               {"attributes is no object"});
+  check_change([](Json& j) { j["meshes"][0]["primitives"][0].erase("attributes"); },
+               {"has no attributes"});
+  check_change([](Json& j) { j["nodes"][0].erase("mesh"); }, {"meshes hang on no node"});
+  check_change([](Json& j) { j["scenes"][0].erase("nodes"); }, {"meshes hang on no node"});
   check_change([](Json& j) { j["meshes"][0].erase("primitives"); },
                {"meshes[0] has no primitives"});
   check_change([](Json& j) { j["nodes"][0]["mesh"] = 1; }, {"nodes[0].mesh is 1"});
@@ -151,8 +167,24 @@ TEST_CASE("gltf: bad indices and primitives and scenes") {
   check_change([](Json& j) { j["nodes"][0]["scale"] = {1e308, 1e308, 1e308}; }, {"infinity"});
   check_change([](Json& j) { j["scene"] = 1; }, {"scene is 1"});
   check_change([](Json& j) { j["scenes"][0]["nodes"] = 0; }, {"is no array"});
-  check_change([](Json& j) { j["extensionsRequired"] = {"EXT_meshopt_compression"}; },
-               {"EXT_meshopt_compression"});
+  for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression",
+                           "EXT_mesh_gpu_instancing", "KHR_node_visibility", "CESIUM_RTC", ""}) {
+    check_change(
+        [&](Json& j) {
+          j["extensionsRequired"] = {"KHR_materials_unlit", name};
+        },
+        {"extensionsRequired[1] is " + std::string(name) + ","});
+  }
+  check_change([](Json& j) { j["extensionsRequired"] = {7}; },
+               {"extensionsRequired[0] is no text"});
+  // Compressed all the same, in a buffer without data.
+  check_change(
+      [](Json& j) {
+        j["buffers"].push_back({{"byteLength", 100000}});
+        j["bufferViews"][0]["buffer"] = 1;
+        j["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0}};
+      },
+      {"bufferViews[0]", "EXT_meshopt_compression"});
   // The last of the indices names a vertex that is not there.
   Glb glb = good(false);
   const Json view = glb.json["bufferViews"].back();

@@ -1,8 +1,12 @@
 // Reading what others write: every way to say triangles and places that glTF has.
 
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <string>
+#include <utility>
 
+#include "base64.hpp"
 #include "difmesh/io/gltf_file.hpp"
 #include "difmesh/measure.hpp"
 #include "io/surfaces.hpp"
@@ -85,8 +89,6 @@ TEST_CASE("gltf: lists and strips and fans with indices of every size and withou
       builder.add(test::bytes_of(0U) + test::bytes_of(1U) + test::bytes_of(3U),
                   {{"componentType", 5125}, {"count", 3.0}, {"type", "SCALAR"}});
   CHECK(builder.read().mesh.triangles == Triangles{{0, 1, 3}});
-  builder.primitive()["mode"] = 1;  // lines are no surface
-  CHECK(builder.read().mesh.positions.empty());
 }
 
 TEST_CASE("gltf: quantised and interleaved attributes") {
@@ -193,4 +195,212 @@ TEST_CASE("gltf: what only one of two primitives has is left out") {
   CHECK(builder.read().mesh.positions.size() == 8);
   builder.json()["meshes"][0]["primitives"].erase(0);
   CHECK(builder.read().scalars.size() == 1);
+}
+
+TEST_CASE("gltf: what viewers show otherwise is read with a warning that names it") {
+  const auto warnings = [](const std::function<void(Builder&)>& change) {
+    Builder builder;
+    builder.square();
+    builder.primitive()["mode"] = 5;
+    const difmesh::ScalarMesh plain = builder.read();
+    CHECK(plain.warnings.empty());
+    change(builder);
+    const difmesh::ScalarMesh found = builder.read();
+    CHECK(found.mesh.positions == plain.mesh.positions);
+    CHECK(found.mesh.triangles == plain.mesh.triangles);
+    return found.warnings;
+  };
+  const auto check = [&](const std::function<void(Builder&)>& change, const std::string& words) {
+    CAPTURE(words);
+    const auto found = warnings(change);
+    REQUIRE(found.size() == 1);
+    CAPTURE(found[0]);
+    CHECK(found[0].find("m.glb': " + words) != std::string::npos);
+  };
+  const auto node = [](Builder& b) -> Json& { return b.json()["nodes"][0]; };
+  const auto morphed = [](Builder& b, const Json& weights) {
+    b.primitive()["targets"] = {{{"POSITION", 0}}};
+    b.json()["meshes"][0]["weights"] = weights;
+  };
+  check([&](Builder& b) { morphed(b, {0, 0.5}); }, "meshes[0] has morph weights");
+  check(
+      [&](Builder& b) {
+        morphed(b, {0});
+        node(b)["weights"] = {-1};
+      },
+      "nodes[0] has morph weights");
+  CHECK(warnings([&](Builder& b) { morphed(b, {0, 0.0}); }).empty());
+  CHECK(warnings([&](Builder& b) {
+          morphed(b, {1});
+          node(b)["weights"] = {0};
+        }).empty());
+  CHECK(warnings([](Builder& b) { b.json()["meshes"][0]["weights"] = {1}; }).empty());
+  check([&](Builder& b) { node(b)["skin"] = 0; }, "nodes[0] has a skin");
+  check(
+      [&](Builder& b) {
+        node(b)["extensions"]["EXT_mesh_gpu_instancing"] = Json::object();
+        b.json()["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
+      },
+      "nodes[0] has copies of its mesh by EXT_mesh_gpu_instancing");
+  check([&](Builder& b) { node(b)["extensions"]["KHR_node_visibility"]["visible"] = false; },
+        "nodes[0] is hidden by KHR_node_visibility");
+  check(
+      [](Builder& b) {
+        b.json()["extensionsUsed"] = {"VENDOR_waves", "KHR_materials_ior"};
+      },
+      "the extension 'VENDOR_waves' is not known here");
+  for (const int mode : {0, 1, 3}) {
+    check(
+        [&](Builder& b) {
+          b.json()["meshes"][0]["primitives"].push_back(b.primitive());
+          b.json()["meshes"][0]["primitives"][1]["mode"] = mode;
+        },
+        "meshes[0].primitives[1] holds points or lines, and was left out.");
+  }
+  check(
+      [](Builder& b) {
+        Json& primitives = b.json()["meshes"][0]["primitives"];
+        const Json bare = {{"attributes", {{"NORMAL", 0}}}};
+        primitives = {primitives[0], bare, bare, bare};
+      },
+      "meshes[0].primitives[1] has no POSITION, and was left out, as in 2 other places.");
+}
+
+TEST_CASE("gltf: files may require extensions that leave surfaces alone") {
+  Builder builder;
+  builder.square();
+  builder.primitive()["mode"] = 5;
+  const Json names = {"KHR_materials_pbrSpecularGlossiness",
+                      "KHR_texture_transform",
+                      "KHR_texture_basisu",
+                      "EXT_texture_webp",
+                      "KHR_lights_punctual",
+                      "KHR_mesh_quantization",
+                      "KHR_xmp_json_ld",
+                      "KHR_materials_variants"};
+  builder.json()["extensionsUsed"] = names;
+  builder.json()["extensionsRequired"] = names;
+  CHECK(builder.read().mesh.triangles.size() == 2);
+  CHECK(builder.read().warnings.empty());
+}
+
+TEST_CASE("gltf: accessors without data are zero") {
+  Builder builder;
+  builder.square();
+  builder.primitive()["mode"] = 5;
+  const auto add = [&](Json accessor) {
+    builder.json()["accessors"].push_back(std::move(accessor));
+    return builder.json()["accessors"].size() - 1;
+  };
+  builder.primitive()["attributes"]["_K"] =
+      add({{"componentType", 5126}, {"count", 4}, {"type", "SCALAR"}});
+  difmesh::ScalarMesh found = builder.read();
+  REQUIRE(found.scalars.size() == 1);
+  CHECK(found.scalars[0].values == difmesh::Array<double>(4, 0.0));
+  CHECK(found.mesh.triangles.size() == 2);
+  builder.primitive()["attributes"]["POSITION"] =
+      add({{"componentType", 5126}, {"count", 4}, {"type", "VEC3"}});
+  CHECK(builder.read().mesh.positions == difmesh::Array<Vec3>(4, Vec3{0, 0, 0}));
+  builder.primitive()["mode"] = 4;
+  builder.primitive()["indices"] = add({{"componentType", 5125}, {"count", 6}, {"type", "SCALAR"}});
+  CHECK(builder.read().mesh.triangles == Triangles{{0, 0, 0}, {0, 0, 0}});
+}
+
+TEST_CASE("gltf: normals and scalars that are not finite are left out") {
+  for (const float bad :
+       {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::infinity()}) {
+    Builder builder;
+    builder.square();
+    builder.primitive()["mode"] = 5;
+    const Mesh plain = builder.read().mesh;
+    std::string data;
+    for (int i = 0; i < 12; ++i) {
+      data += test::bytes_of(i == 7 ? bad : 0.6F);
+    }
+    builder.primitive()["attributes"]["NORMAL"] =
+        builder.add(data, {{"componentType", 5126}, {"count", 4}, {"type", "VEC3"}});
+    builder.primitive()["attributes"]["_K"] = builder.add(
+        data.substr(16, 16), {{"componentType", 5126}, {"count", 4}, {"type", "SCALAR"}});
+    builder.primitive()["attributes"]["_GOOD"] = builder.add(
+        data.substr(0, 16), {{"componentType", 5126}, {"count", 4}, {"type", "SCALAR"}});
+    const difmesh::ScalarMesh found = builder.read();
+    CHECK(found.mesh.positions == plain.positions);
+    CHECK(found.mesh.triangles == plain.triangles);
+    CHECK(found.mesh.normals.empty());
+    REQUIRE(found.scalars.size() == 1);
+    CHECK(found.scalars[0].name == "good");
+    REQUIRE(found.warnings.size() == 1);
+    CHECK(
+        found.warnings[0].ends_with("meshes[0].primitives[0].attributes.NORMAL is not finite "
+                                    "everywhere, and was left out, as in 1 other place."));
+  }
+}
+
+TEST_CASE("base64 of every length and of nothing else") {
+  const auto decoded = [](const std::string& text) {
+    const auto bytes = difmesh::detail::from_base64(text);
+    return bytes ? std::string(bytes->begin(), bytes->end()) : "none";
+  };
+  // The examples of RFC 4648.
+  CHECK(decoded("").empty());
+  CHECK(decoded("Zg==") == "f");
+  CHECK(decoded("Zm8=") == "fo");
+  CHECK(decoded("Zm9v") == "foo");
+  CHECK(decoded("Zm9vYg==") == "foob");
+  CHECK(decoded("Zm9vYmE") == "fooba");
+  CHECK(decoded("Zm9vYmFy") == "foobar");
+  CHECK(decoded("//79+w") == "\xff\xfe\xfd\xfb");
+  for (const char* bad : {"Z", "Zm9vY", "Zm9*", "*m9v", "Zm=v", "Zm9vZ*", "Zm9v\n", "Zm\xff"}) {
+    CAPTURE(bad);
+    CHECK(decoded(bad) == "none");
+  }
+}
+
+TEST_CASE("gltf: long data in base64 beside other long texts") {
+  const TempFolder folder;
+  Builder builder;
+  builder.square();
+  builder.indices(std::string("\0\1\2\2\1\3", 6), 5121, 6, 4);
+  const Mesh wanted = builder.read().mesh;
+  REQUIRE(wanted.triangles == Triangles{{0, 1, 2}, {2, 1, 3}});
+  Json json = builder.json();
+  const std::string zeros(4000, 'A');
+  const std::string start = "data:application/octet-stream;base64,";
+  json["buffers"] = {{{"byteLength", 48},
+                      {"uri", start +
+                                  "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAACAPwAAgD8A"
+                                  "AAAA" +
+                                  zeros}},
+                     {{"byteLength", 6}, {"uri", start + "AAECAgED" + zeros}}};
+  json["bufferViews"][1]["buffer"] = 1;
+  json["bufferViews"][1]["byteOffset"] = 0;
+  json["images"] = {{{"uri", "data:image/png;base64," + zeros}}, {{"uri", zeros}}};
+  json["asset"]["copyright"] = "\"data: \"" + zeros + "\"data:" + zeros;
+  const auto read = [&](const std::string& text) {
+    return difmesh::read_gltf(folder.file("m.gltf", text)).mesh;
+  };
+  const auto check = [&](const std::string& text) {
+    CHECK(read(text).positions == wanted.positions);
+    CHECK(read(text).triangles == wanted.triangles);
+  };
+  check(json.dump());
+  check(json.dump(2));
+  std::string escaped;  // as some write every slash
+  for (const char c : json.dump()) {
+    escaped += c == '/' ? std::string("\\/") : std::string(1, c);
+  }
+  check(escaped);
+  check("\xEF\xBB\xBF" + json.dump());
+  const auto refused = [&](const std::string& text, const std::string& word) {
+    test::check_error([&] { (void)read(text); }, difmesh::ErrorCode::file_format, {word});
+  };
+  std::string broken = json.dump();
+  broken[broken.find("AAECAgED") + 3000] = '*';
+  refused(broken, "buffers[1].uri holds data that are no base64");
+  refused(json.dump().substr(0, broken.find("AAECAgED") + 3000), "no JSON");
+  json["buffers"][1]["uri"] = start + "AAEC" + zeros;
+  json["buffers"][1]["byteLength"] = 9000;
+  refused(json.dump(), "there are 3003 bytes");
+  json["buffers"][1]["uri"] = "data:;difmesh,99";
+  refused(json.dump(), "not base64");
 }

@@ -57,6 +57,8 @@ struct WriteGltfOptions {
 
 /// Writes a mesh as .glb (one binary file) or .gltf (one text file, its data in base64: a third
 /// larger, but whole or not there at all like any file of ours).
+/// - Vertices that no triangle uses are left out: far off, they would cost the surface digits and
+///   viewers their view of it.
 /// - POSITION float32 with exact min and max, NORMAL, indices uint16 or, from 65536 vertices on,
 ///   uint32; one double-sided material, neither metallic nor glossy.
 /// - `_NAME`, in capitals, for each of the scalars: float32; its range is in the mesh's `extras`.
@@ -82,16 +84,20 @@ MeshFileReport write_gltf(const std::filesystem::path& path, const Mesh& mesh,
 
 /// Reads the surfaces of a .glb or .gltf file: the triangles, strips and fans of its default scene,
 /// plain or compressed by Draco, moved to where their nodes put them and joined to one mesh in the
-/// order of the scene. Points and lines, materials, textures, animations, skins and morph targets
-/// are skipped. Positions, normals and scalars may have any type that glTF allows for them. Normals,
-/// edge ids and scalars are kept where all primitives have them; scalars are attributes of one
-/// number whose name starts with an underscore, in small letters here. What write_gltf() wrote
-/// comes back in the coordinates and unit that it was given, and undivided.
+/// order of the scene. Materials, textures and animations are skipped. So are, with a warning where
+/// viewers would show something else, points and lines, primitives without positions, skins, morph
+/// targets, copies by EXT_mesh_gpu_instancing, extensions that are not known here, and normals and
+/// scalars that are not finite. Accessors without data are zero. Positions, normals and scalars may
+/// have any type that glTF allows for them. Normals, edge ids and scalars are kept where all
+/// primitives have them; scalars are attributes of one number whose name starts with an underscore,
+/// in small letters here. What write_gltf() wrote comes back in the coordinates and unit that it was
+/// given, and undivided.
 ///
 /// Buffers are within the file, in base64, or in files in the same folder or below; elsewhere where
 /// the options allow it.
-/// \throw Error as read_mesh(); file_format also for sparse accessors and required extensions that
-///   change the geometry, by name. The message names the part, for instance accessors[2].count.
+/// \throw Error as read_mesh(); file_format also for sparse accessors, meshes that hang on no node,
+///   and by name for required extensions that are not known to leave geometry alone. The message
+///   names the part, for instance accessors[2].count.
 /// Cost: linear. Memory: at most some 100 times the size of the file; of Draco's data, which may
 /// pack that well, up to 1000 vertices and triangles for each of their bytes. A file that asks for
 /// more is refused as not to be trusted.
