@@ -14,19 +14,13 @@ namespace {
 
 constexpr std::int64_t kPerPortion = 4096;
 constexpr double kNormalLength = 0x1p20;
-// Angles are summed as integers too, in units of 2^-20 quarters.
-constexpr double kQuarter = 0x1p20;
-constexpr std::int64_t kRound = std::int64_t{4} << 20;
-// Each triangle rounds by up to one unit, and vertices of more triangles than this have not.
-constexpr std::int64_t kAngleRounding = 1 << 10;
 
 /// Adds to sums that other threads may add to as well; alone it takes a tenth of the time.
 struct Adder {
   bool alone;
 
-  // Sums of very many may wrap round; any direction will do, and such angles are not 4.
-  void operator()(std::uint32_t& sum, std::int32_t value) const {
-    const auto term = static_cast<std::uint32_t>(value);
+  // Sums of directions may wrap round: any direction will do that proves good.
+  void operator()(std::uint32_t& sum, std::uint32_t term) const {
     if (alone) {
       sum += term;
     } else {
@@ -53,6 +47,18 @@ std::array<std::int32_t, 3> direction_of(const Vec3& a, const Vec3& b, const Vec
           static_cast<std::int32_t>(area[2] * factor)};
 }
 
+/// A vector across another; its length is of no matter.
+Vec3 across(const Vec3& d) {
+  return std::abs(d[0]) < std::abs(d[2]) ? Vec3{0.0, d[2], -d[1]} : Vec3{-d[1], d[0], 0.0};
+}
+
+/// A random number for a vertex.
+std::uint32_t number_of(std::uint32_t vertex) {
+  std::uint32_t number = (vertex + 1) * 0x9e3779b1U;
+  number = (number ^ (number >> 15)) * 0x85ebca6bU;
+  return number ^ (number >> 13);
+}
+
 /// The triangles round each vertex.
 class Stars {
  public:
@@ -62,8 +68,7 @@ class Stars {
         triangles_(triangles),
         add_{alone},
         facts_(facts),
-        directions_(corners.size()),
-        angles_(corners.size()) {}
+        sums_(corners.size()) {}
 
   void add_normal(std::size_t t) {
     const Triangle& triangle = triangles_[t];
@@ -71,57 +76,66 @@ class Stars {
         direction_of(corners_[triangle[0]], corners_[triangle[1]], corners_[triangle[2]]);
     for (const std::uint32_t vertex : triangle) {
       for (std::size_t a = 0; a < 3; ++a) {
-        add_(directions_[vertex][a], facts_.normals[t][a]);
+        add_(sums_[vertex].direction[a], static_cast<std::uint32_t>(facts_.normals[t][a]));
       }
     }
   }
 
-  /// Once all normals are added.
-  void add_angles(std::size_t t) {
+  /// Once all normals are added. Triangles of a half-space turn the same way round its direction,
+  /// so they go round as often as they cross a fixed half-line.
+  void add_turn(std::size_t t) {
     const Triangle& triangle = triangles_[t];
     const std::array<std::int32_t, 3>& normal = facts_.normals[t];
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint32_t vertex = triangle[c];
+      const std::uint32_t from = triangle[(c + 1) % 3];
+      const std::uint32_t to = triangle[(c + 2) % 3];
+      Sums& sums = sums_[vertex];
       Vec3 direction;
       double along = 0.0;
       for (std::size_t a = 0; a < 3; ++a) {
-        direction[a] = static_cast<double>(static_cast<std::int32_t>(directions_[vertex][a]));
+        direction[a] = static_cast<double>(static_cast<std::int32_t>(sums.direction[a]));
         along += direction[a] * normal[a];
       }
-      if (along > 0.0) {
-        const double quarters = AngleGauge(direction).quarters(
-            corners_[vertex], corners_[triangle[(c + 1) % 3]], corners_[triangle[(c + 2) % 3]]);
-        add_(angles_[vertex], static_cast<std::int32_t>(quarters * kQuarter));
-      } else {
+      if (!(along > 0.0)) {
         std::atomic_ref<std::uint8_t>(facts_.ordinary[vertex]).store(0, std::memory_order_relaxed);
+        continue;
       }
+      const Vec3 v = across(direction);
+      const bool below = dot(minus(corners_[from], corners_[vertex]), v) < 0.0;
+      const bool above = dot(minus(corners_[to], corners_[vertex]), v) >= 0.0;
+      if (below && above) {
+        add_(sums.turns, 1);
+      }
+      add_(sums.ends, number_of(to) - number_of(from));
     }
   }
 
-  /// Once all angles are added.
+  /// Once all turns are added.
   void judge(std::size_t vertex) {
-    const std::int64_t off = static_cast<std::int64_t>(angles_[vertex]) - kRound;
-    if (std::abs(off) >= kAngleRounding) {
+    if (sums_[vertex].turns != 1 || sums_[vertex].ends != 0) {
       facts_.ordinary[vertex] = 0;
     }
   }
 
  private:
+  struct Sums {
+    std::array<std::uint32_t, 3> direction{};  ///< of the normals; as signed integers
+    std::uint32_t turns = 0;                   ///< crossings of the half-line
+    std::uint32_t ends = 0;  ///< numbers of the triangles' last corners, less those of the first
+  };
+
   std::span<const Vec3> corners_;
   std::span<const Triangle> triangles_;
   Adder add_;
   SheetFacts& facts_;
-  std::vector<std::array<std::uint32_t, 3>> directions_;
-  std::vector<std::uint32_t> angles_;
+  std::vector<Sums> sums_;
 };
 
 }  // namespace
 
-AngleGauge::AngleGauge(const Vec3& d) {
-  // Two axes across the direction, counter-clockwise; their lengths are of no matter.
-  u_ = std::abs(d[0]) < std::abs(d[2]) ? Vec3{0.0, d[2], -d[1]} : Vec3{-d[1], d[0], 0.0};
-  v_ = cross(d, u_);
-}
+// The axes across are counter-clockwise seen against the direction.
+AngleGauge::AngleGauge(const Vec3& direction) : u_(across(direction)), v_(cross(direction, u_)) {}
 
 double AngleGauge::quarters(const Vec3& apex, const Vec3& from, const Vec3& to) const {
   const Vec3 a = minus(from, apex);
@@ -146,7 +160,7 @@ SheetFacts sheet_facts(std::span<const Vec3> corners, std::span<const Triangle> 
                          });
   };
   for_all(triangles.size(), [&](std::size_t t) { stars.add_normal(t); });
-  for_all(triangles.size(), [&](std::size_t t) { stars.add_angles(t); });
+  for_all(triangles.size(), [&](std::size_t t) { stars.add_turn(t); });
   for_all(corners.size(), [&](std::size_t vertex) { stars.judge(vertex); });
   return facts;
 }

@@ -99,10 +99,10 @@ struct FractionsFromMesh {
 ///   along x the first column and its gap; without check_edges the latter alone), mixed orientation (two
 ///   triangles are named), a mesh that is inside out (see `flip`), or parts that are (a cell is
 ///   named) or that overlap (Overlaps::refuse; a cell is named).
-/// Cost: O(pieces + cells), 30 to 60 ns per piece and up to 3 ns per cell on one core; 0.01 to 1 ms
-/// per cell in which surfaces cross. Memory beyond the field: 32 bytes per vertex, 4 per triangle
-/// and layer of cells that it meets, and 1 MB per thread (more where rows have over 32,000 cells).
-/// Thread safety: concurrent calls are safe.
+/// Cost: O(pieces + cells), 50 to 150 ns per piece and up to 3 ns per cell on one core; 0.01 to 1
+/// ms per cell in which surfaces cross. Memory beyond the field: 53 bytes per vertex, 12 per
+/// triangle and 4 more for each layer of cells that it meets, and 1 MB per thread (more where rows
+/// have over 32,000 cells). Thread safety: concurrent calls are safe.
 [[nodiscard]] FractionsFromMesh fractions_from_mesh(const Grid& grid,
                                                     std::span<const Vec3> positions,
                                                     std::span<const Triangle> triangles,
