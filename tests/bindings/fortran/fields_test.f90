@@ -170,6 +170,39 @@ contains
       end do
     end do
     call expect(maxval(abs(fractions)) < 1d-14, 'a box, clipped in closed form')
+    call expect_overlaps(grid)
+  end subroutine
+
+  ! Boxes of 2 x 2 x 2 that have 1 x 2 x 2 in common, as one mesh.
+  subroutine expect_overlaps(grid)
+    type(dif_grid), intent(in) :: grid
+    type(dif_mesh) :: first, second, both
+    type(dif_triangle_options) :: options
+    type(dif_triangle_report) :: report
+    real(8), allocatable :: points(:, :), others(:, :)
+    integer, allocatable :: faces(:, :)
+    real(8) :: fractions(16, 17, 18)
+    integer :: status
+    call make_box(first, [2.25d0, 3.5d0, 4.75d0], [4.25d0, 5.5d0, 6.75d0])
+    call make_box(second, [3.25d0, 3.5d0, 4.75d0], [5.25d0, 5.5d0, 6.75d0])
+    call first%get_points(points, status)
+    call second%get_points(others, status)
+    call first%get_triangles(faces, status)
+    call both%set_arrays(reshape([points, others], [3, 16]), &
+      reshape([faces, faces + 8], [3, 24]), status)
+    call expect(status == dif_ok, 'two boxes')
+    call dif_sample_mesh(grid, both, fractions, status, report=report)
+    call expect(status == dif_ok, 'two boxes that overlap')
+    call expect_near(sum(fractions), 12d0, 1d-12, 'their union')
+    call expect_near(report%overlap_volume, 4d0, 1d-12, 'what they have in common')
+    call expect_near(report%overlap_high(1), 5d0, 1d-12, 'where it ends, by cells')
+    call dif_init(options)
+    options%overlaps = dif_overlaps_count
+    call dif_sample_mesh(grid, both, fractions, status, options)
+    call expect_near(sum(fractions), 16d0, 1d-12, 'counted twice')
+    options%overlaps = dif_overlaps_refuse
+    call dif_sample_mesh(grid, both, fractions, status, options)
+    call expect(status == dif_error_invalid_argument, 'overlaps are refused')
   end subroutine
 
   subroutine distance(points, values)
