@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -30,9 +31,11 @@ using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 #ifdef DIFMESH_SANITIZED
 constexpr std::size_t kCells = 10;
 constexpr std::size_t kSlivers = 3;
+constexpr int kUnions = 3;
 #else
 constexpr std::size_t kCells = 220;
 constexpr std::size_t kSlivers = 40;
+constexpr int kUnions = 30;
 #endif
 constexpr std::int64_t kGridCells = 32;
 
@@ -190,4 +193,34 @@ TEST_CASE("fractions agree with corefinement in random cells") {
       check_mesh(shared, *mesh, seed++);
     }
   }
+}
+
+TEST_CASE("unions of tetrahedra agree with those of CGAL in each cell") {
+  Random random(31);
+  int crossing = 0;
+  for (int trial = 0; trial < kUnions; ++trial) {
+    CAPTURE(trial);
+    const std::int64_t n = 1 + trial % 3;
+    const double spacing = 3.0 / static_cast<double>(n);
+    const Grid grid = make_grid({n, n, n}, {-1.5, -1.5, -1.5}, {spacing, spacing, spacing});
+    TriangleMesh both;
+    std::array<SurfaceMesh, 2> parts;
+    for (SurfaceMesh& part : parts) {
+      std::array<Vec3, 4> corners;
+      for (Vec3& corner : corners) {
+        corner = scaled(random.direction(), random.uniform(0.8, 1.45));
+      }
+      const TriangleMesh mesh = tetrahedron_mesh(corners);
+      both.append(mesh);
+      part = to_cgal(mesh);
+    }
+    SurfaceMesh united;
+    REQUIRE(pmp::corefine_and_compute_union(parts[0], parts[1], united));
+    const FractionsFromMesh result = run(grid, both);
+    crossing += result.report.overlap.cells > 0 ? 1 : 0;
+    CHECK(result.report.fraction_volume == doctest::Approx(pmp::volume(united)).epsilon(1e-12));
+    CHECK(worst(grid, result.fractions,
+                [&](const Index3& cell) { return cell_fraction(united, grid, cell); }) < 1e-11);
+  }
+  CHECK(crossing > kUnions / 2);
 }
