@@ -456,7 +456,7 @@ TEST_CASE("sample names a mesh that it cannot use") {
     return place.folder.file(name, text).string();
   };
   check_fails(place.run(with_text("nan.off", "\n1 1 1\n", "\n1 nan 1\n"), {"--cells", "12"}), 1,
-              {"nan.off", "line 10", "'nan'"});
+              {"nan.off", "line 10", "not finite"});
   check_fails(place.run(with_text("index.off", "3 4 7 6", "3 4 7 8"), {"--cells", "12"}), 1,
               {"index.off", "face 11", "vertex 8 of 8"});
   check_fails(place.run((place.folder / "none.ply").string(), {"--cells", "12"}), 1,
