@@ -23,6 +23,7 @@ enum Variant : unsigned {
   kWithProgress = 8,
   kOpenFaces = 16,
   kInFloat64 = 32,
+  kOtherFloats = 64,
 };
 
 struct Specimen {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "float_settings.hpp"
 #include "instructions.hpp"
 #include "random.hpp"
 #include "text.hpp"
@@ -33,6 +34,12 @@ Result reconstruct(const dif_field& field, const dif_options& options) {
   result.status = dif_reconstruct(&field, &options, &mesh);
   complete(result, mesh);
   return result;
+}
+
+// What differs from a surface that should have the same bits.
+Finding difference_of(const Surface& surface, const Result& result, const char* what) {
+  return result.status == DIF_OK ? difference(surface, result.surface, what)
+                                 : Finding{what, dif_last_message()};
 }
 
 bool same_facts(const dif_report& a, const dif_report& b) {
@@ -180,10 +187,11 @@ Finding Trial::check_variants(const Specimen& specimen, const dif_field& field) 
   };
   check(kWithoutGaps, [&] {
     const Result plain = reconstruct(others_.lay_out_plainly(specimen), specimen.options);
-    return difference(surface_, plain.surface, "another surface without gaps");
+    return difference_of(surface_, plain, "another surface without gaps");
   });
   check(kWithoutNormals, [&] { return check_bare(field, specimen.options); });
   check(kInFloat64, [&] { return check_float64(specimen); });
+  check(kOtherFloats, [&] { return check_other_floats(specimen, field); });
   check(kMeasured, [&] { return check_measure(); });
   check(kOpenFaces, [&] { return check_open_faces(specimen, field); });
   return finding;
@@ -198,7 +206,23 @@ Finding Trial::check_float64(const Specimen& specimen) {
     }
   }
   const Result same = reconstruct(others_.lay_out(wide, {0, 0, 0}, wide.dims), wide.options);
-  return difference(surface_, same.surface, "another surface in float64");
+  return difference_of(surface_, same, "another surface in float64");
+}
+
+Finding Trial::check_other_floats(const Specimen& specimen, const dif_field& field) const {
+  dif_options options = specimen.options;
+  options.threads = specimen.other_threads;
+  bool untouched = false;
+  Result result;
+  {
+    const OtherFloatSettings settings(specimen.variants >> 20);
+    result = reconstruct(field, options);
+    untouched = settings.are_untouched();
+  }
+  if (!untouched) {
+    return {"floating-point settings or flags that a reconstruction left behind", ""};
+  }
+  return difference_of(surface_, result, "another surface with other floating-point settings");
 }
 
 Finding Trial::check_bare(const dif_field& field, const dif_options& options) const {
@@ -206,7 +230,8 @@ Finding Trial::check_bare(const dif_field& field, const dif_options& options) co
   bare.vertex_normals = 0;
   bare.edge_ids = 0;
   const Result result = reconstruct(field, bare);
-  if (!same_positions(surface_, result.surface) || !same_triangles(surface_, result.surface)) {
+  if (result.status != DIF_OK || !same_positions(surface_, result.surface) ||
+      !same_triangles(surface_, result.surface)) {
     return {"another surface without normals", ""};
   }
   return result.surface.normals.empty() && result.surface.ids.empty()

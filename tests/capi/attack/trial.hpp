@@ -18,7 +18,8 @@ class Trial {
   /// - kWithoutGaps: the same elements without gaps in memory, x fastest;
   /// - kWithoutNormals: a mesh that was not to have normals and edge ids;
   /// - kWithProgress: the other threads, reporting progress;
-  /// - kInFloat64: the same fractions in float64.
+  /// - kInFloat64: the same fractions in float64;
+  /// - kOtherFloats: a caller with another rounding mode, whose settings and flags stay.
   /// kMeasured: dif_mesh_measure() must agree. kOpenFaces: nodes of open faces must be inside where
   /// the planes of dif_cell_planes() say so.
   [[nodiscard]] Finding run(const Specimen& specimen);
@@ -32,6 +33,7 @@ class Trial {
   [[nodiscard]] Finding check_refusal(const Specimen& specimen, dif_status status) const;
   [[nodiscard]] Finding check_variants(const Specimen& specimen, const dif_field& field);
   [[nodiscard]] Finding check_float64(const Specimen& specimen);
+  [[nodiscard]] Finding check_other_floats(const Specimen& specimen, const dif_field& field) const;
   [[nodiscard]] Finding check_bare(const dif_field& field, const dif_options& options) const;
   [[nodiscard]] Finding check_blocks(const Specimen& specimen);
   [[nodiscard]] Finding check_measure() const;
