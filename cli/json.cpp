@@ -1,5 +1,8 @@
 #include "json.hpp"
 
+#include <algorithm>
+
+#include "difmesh/printable.hpp"
 #include "difmesh/version.hpp"
 
 namespace difmesh::cli {
@@ -9,7 +12,14 @@ Json json_head() {
 }
 
 std::string to_text(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  const auto dump = [&](bool ascii) {
+    return json.dump(2, ' ', ascii, Json::error_handler_t::replace) + "\n";
+  };
+  std::string text = dump(false);
+  std::string line = text;
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  // JSON may hold some control characters as they are, which terminals may not.
+  return printable(line) == line ? text : dump(true);
 }
 
 }  // namespace difmesh::cli

@@ -294,6 +294,38 @@ void check_outputs(const Request& request) {
   }
 }
 
+Json file_json(const MeshFileReport& written) {
+  return {{"bytes", written.bytes},
+          {"vertices", written.vertices},
+          {"triangles", written.triangles},
+          {"position_bits", written.position_bits},
+          {"position_error", written.position_error},
+          {"collapsed_triangles", written.collapsed_triangles}};
+}
+
+/// Mesh and report. \param warnings get what the format does to the mesh
+MeshFileReport write_outputs(const Request& request, const ScalarMesh& surface, double cell_size,
+                             Json& json, std::vector<std::string>& warnings) {
+  // Where not even a report without the facts of the mesh's file can be written, there is no mesh.
+  std::optional<OutputFile> draft;
+  if (!request.report_path.empty()) {
+    json["file"] = file_json({});
+    json["warnings"] = warnings;
+    draft.emplace(request.report_path, to_text(json));
+  }
+  const MeshFileReport written = write_surface(request.output, surface, cell_size);
+  if (const std::optional<std::string> warning =
+          rounding_warning(request.output, written, cell_size)) {
+    warnings.push_back(*warning);
+  }
+  if (draft) {
+    json["file"] = file_json(written);
+    json["warnings"] = warnings;
+    OutputFile(request.report_path, to_text(json)).commit();
+  }
+  return written;
+}
+
 void run(const Request& request) {
   check_outputs(request);
   Stopwatch watch;
@@ -312,18 +344,10 @@ void run(const Request& request) {
   seconds.reconstruct = watch.lap();
   add_warnings(request, field, result, warnings);
 
-  std::optional<OutputFile> report;
-  if (!request.report_path.empty()) {
-    Json json = report_json(request, field, result, seconds);
-    json["warnings"] = warnings;
-    report.emplace(request.report_path, to_text(json));
-  }
+  Json json = report_json(request, field, result, seconds);
   const double cell = *std::min_element(field.grid.spacing.begin(), field.grid.spacing.end());
-  const std::string written =
-      write_surface(request.output, {result.mesh, std::move(scalars)}, cell);
-  if (report) {
-    report->commit();
-  }
+  const MeshFileReport written =
+      write_outputs(request, {result.mesh, std::move(scalars)}, cell, json, warnings);
   seconds.write = watch.lap();
 
   if (!request.quiet) {
@@ -332,9 +356,7 @@ void run(const Request& request) {
   }
   if (request.with_summary()) {
     print_summary(request, field, result, seconds);
-    if (!written.empty()) {
-      print_fact(std::cout, "file", written);
-    }
+    print_fact(std::cout, "file", file_text(written));
   }
 }
 

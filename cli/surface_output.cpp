@@ -14,6 +14,9 @@
 namespace difmesh::cli {
 namespace {
 
+// Of the spacing: as much as second-order vertices are off by on coarse grids.
+constexpr double kCoarse = 0.01;
+
 bool is_drc(const SurfaceOutput& output) {
   return has_extension(output.path, kDracoExtensions);
 }
@@ -29,16 +32,8 @@ DracoOptions draco_options(const SurfaceOutput& output, double cell_size) {
   return draco;
 }
 
-std::string written(const MeshFileReport& report) {
-  std::string text = count_of(report.bytes, "byte");
-  if (report.position_bits > 0) {
-    text += ", positions of " + std::to_string(report.position_bits) + " bits";
-  }
-  return text + ", coordinates off by " + rounded(report.position_error, 3) + " at most";
-}
-
-std::string write_as_gltf(const SurfaceOutput& output, const ScalarMesh& surface,
-                          double cell_size) {
+MeshFileReport write_as_gltf(const SurfaceOutput& output, const ScalarMesh& surface,
+                             double cell_size) {
   WriteGltfOptions options;
   if (!output.draco.empty()) {
     options.draco = draco_options(output, cell_size);
@@ -53,7 +48,7 @@ std::string write_as_gltf(const SurfaceOutput& output, const ScalarMesh& surface
   }
   options.up = output.up.value_or(options.up);
   options.metres_per_unit = output.metres_per_unit.value_or(options.metres_per_unit);
-  return written(write_gltf(output.path, surface.mesh, options));
+  return write_gltf(output.path, surface.mesh, options);
 }
 
 void add_draco_options(CLI::App& command, SurfaceOutput& output) {
@@ -168,8 +163,8 @@ void check_surface_output(const SurfaceOutput& output, const std::vector<std::st
   }
 }
 
-std::string write_surface(const SurfaceOutput& output, const ScalarMesh& surface,
-                          double cell_size) {
+MeshFileReport write_surface(const SurfaceOutput& output, const ScalarMesh& surface,
+                             double cell_size) {
   if (output.is_gltf()) {
     return write_as_gltf(output, surface, cell_size);
   }
@@ -177,12 +172,38 @@ std::string write_surface(const SurfaceOutput& output, const ScalarMesh& surface
     WriteDrcOptions options;
     options.scalars = surface.scalars;
     options.draco = draco_options(output, cell_size);
-    return written(write_drc(output.path, surface.mesh, options));
+    return write_drc(output.path, surface.mesh, options);
   }
   WriteMeshOptions options;
   options.scalars = surface.scalars;
-  write_mesh(output.path, surface.mesh, options);
-  return "";
+  return write_mesh(output.path, surface.mesh, options);
+}
+
+std::string file_text(const MeshFileReport& report) {
+  std::string text = count_of(report.bytes, "byte");
+  if (report.position_bits > 0) {
+    text += ", positions of " + std::to_string(report.position_bits) + " bits";
+  }
+  return text + (report.position_error > 0.0
+                     ? ", coordinates off by " + rounded(report.position_error, 3) + " at most"
+                     : ", coordinates exact");
+}
+
+std::optional<std::string> rounding_warning(const SurfaceOutput& output,
+                                            const MeshFileReport& report, double cell_size) {
+  const bool asked_for = !output.draco.empty() && output.draco != "true";
+  const bool coarse = report.position_error > kCoarse * cell_size && !asked_for;
+  if (!coarse && report.collapsed_triangles == 0) {
+    return std::nullopt;
+  }
+  std::string text = "'" + output.path + "': coordinates are off by up to " +
+                     rounded(report.position_error, 3) + ", " +
+                     rounded(report.position_error / cell_size, 3) + " of the spacing";
+  if (report.collapsed_triangles > 0) {
+    text += ", and " + std::to_string(report.collapsed_triangles) + " of " +
+            count_of(report.triangles, "triangle") + " collapse";
+  }
+  return text + "; .ply, .obj and .off keep all digits";
 }
 
 }  // namespace difmesh::cli

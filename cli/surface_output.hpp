@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "difmesh/io/gltf_file.hpp"
+#include "difmesh/io/mesh_file_report.hpp"
 #include "difmesh/io/vertex_scalars.hpp"
 #include "mesh_scalars.hpp"
 
@@ -33,10 +34,19 @@ void add_surface_options(CLI::App& command, SurfaceOutput& output);
 /// \param scalars names that the surface will have scalars of
 /// \throw CLI::ValidationError for an unknown extension, and options that the format does not have
 void check_surface_output(const SurfaceOutput& output, const std::vector<std::string>& scalars);
-/// Writes the mesh; \return size and error in words, for formats that have more to say.
+/// Writes the mesh. \return what is in the file
 /// \param surface its scalars are written where the format has them
 /// \param cell_size Δx, for the choice of Draco's bits
 /// \throw Error
-std::string write_surface(const SurfaceOutput& output, const ScalarMesh& surface, double cell_size);
+MeshFileReport write_surface(const SurfaceOutput& output, const ScalarMesh& surface,
+                             double cell_size);
+
+/// Size and error of a file in words.
+[[nodiscard]] std::string file_text(const MeshFileReport& report);
+/// A sentence where the format made triangles collapse or rounds coordinates by more than a hundredth
+/// of the spacing, unless it was told by how much to.
+[[nodiscard]] std::optional<std::string> rounding_warning(const SurfaceOutput& output,
+                                                          const MeshFileReport& report,
+                                                          double cell_size);
 
 }  // namespace difmesh::cli

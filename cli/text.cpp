@@ -66,7 +66,7 @@ void warn_all(const std::vector<std::string>& messages) {
 
 void print_fact(std::ostream& out, std::string_view name, std::string_view value) {
   const std::size_t gap = name.size() < kNameColumn ? kNameColumn - name.size() : 1;
-  out << name << std::string(gap, ' ') << value << '\n';
+  out << name << std::string(gap, ' ') << printable(value) << '\n';
 }
 
 }  // namespace difmesh::cli

@@ -30,7 +30,8 @@ void warn(const std::string& message);
 /// Each of them once.
 void warn_all(const std::vector<std::string>& messages);
 
-/// Prints "name   value", the values of successive calls below each other.
+/// Prints "name   value", the values of successive calls below each other; what is not printable in
+/// them, of names of files above all, is escaped.
 void print_fact(std::ostream& out, std::string_view name, std::string_view value);
 
 }  // namespace difmesh::cli

@@ -2,11 +2,17 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "difmesh/io/field_file.hpp"
+#include "difmesh/io/mesh_file.hpp"
 #include "io/files.hpp"
 #include "program.hpp"
 
@@ -14,6 +20,7 @@ namespace {
 
 using difmesh::test::check_fails;
 using difmesh::test::check_succeeds;
+using difmesh::test::fact;
 using difmesh::test::Launch;
 using difmesh::test::Outcome;
 using difmesh::test::run_program;
@@ -140,6 +147,103 @@ TEST_CASE("links that go in circles or to one file are refused before the work s
   check_fails(run_program({"reconstruct", missing, "-o", place.mesh, "--report", place.report}), 2,
               {"report.json", "two things at once"});
   CHECK(place.folder.names() == Names{"drop.npy", "loop.ply", "mesh.ply", "report.json"});
+}
+
+TEST_CASE("a far origin is too much for stl and warned of") {
+  const Place place;
+  const auto run = [&](const char* name, std::initializer_list<std::string> more) {
+    std::vector<std::string> arguments{
+        "reconstruct", place.field, "-o", (place.folder / name).string(), "--report", place.report};
+    arguments.insert(arguments.end(), more);
+    return run_program(arguments);
+  };
+  const std::string far = "500000,5400000,300";
+  const Outcome stl = run("far.stl", {"--origin", far, "--spacing", "0.01"});
+  CHECK(stl.exit_code == 0);
+  const auto report = nlohmann::json::parse(read_bytes(place.report));
+  // What the file holds, against the same surface in double precision.
+  check_succeeds(run("far.ply", {"--origin", far, "--spacing", "0.01"}));
+  const difmesh::Mesh exact = difmesh::read_mesh(place.folder / "far.ply");
+  double error = 0.0;
+  std::int64_t collapsed = 0;
+  for (const difmesh::Triangle& t : exact.triangles) {
+    std::set<std::array<float, 3>> corners;
+    for (const std::uint32_t v : t) {
+      const difmesh::Vec3& p = exact.positions[v];
+      const std::array<float, 3> rounded{static_cast<float>(p[0]), static_cast<float>(p[1]),
+                                         static_cast<float>(p[2])};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        error = std::max(error, std::abs(p[axis] - static_cast<double>(rounded[axis])));
+      }
+      corners.insert(rounded);
+    }
+    collapsed += corners.size() < 3 ? 1 : 0;
+  }
+  CHECK(error > 0.1);  // ulps of float32 are 1/2 there
+  CHECK(collapsed > 100);
+  CHECK(report["file"]["position_error"] == error);
+  CHECK(report["file"]["collapsed_triangles"] == collapsed);
+  CHECK(report["file"]["bytes"] == std::filesystem::file_size(place.folder / "far.stl"));
+  REQUIRE(report["warnings"].size() == 1);
+  CHECK(stl.err == "difmesh: warning: " + report["warnings"][0].get<std::string>() + "\n");
+  for (const std::string& word : {std::string("far.stl"), std::to_string(collapsed) + " of ",
+                                  std::string(" of the spacing")}) {
+    CHECK_MESSAGE(stl.err.find(word) != std::string::npos, word);
+  }
+  CHECK(fact(stl.out, "file").find("coordinates off by 0.2") != std::string::npos);
+
+  // Without triangles that collapse it is a matter of the spacing: 3e-4 of it, then 0.03.
+  check_succeeds(run("near.stl", {"--origin", "5000", "--spacing", "1"}));
+  const Outcome coarse = run("coarse.stl", {"--origin", "500000", "--spacing", "1"});
+  CHECK(coarse.exit_code == 0);
+  CHECK(coarse.err.find("of the spacing; ") != std::string::npos);
+}
+
+TEST_CASE("what is in the file is told for every format") {
+  const Place place;
+  for (const char* name : {"m.ply", "m.obj", "m.off"}) {
+    const Outcome outcome =
+        run_program({"reconstruct", place.field, "-o", (place.folder / name).string()});
+    check_succeeds(outcome);
+    CHECK(fact(outcome.out, "file") ==
+          std::to_string(std::filesystem::file_size(place.folder / name)) +
+              " bytes, coordinates exact");
+  }
+  const Outcome stl =
+      run_program({"reconstruct", place.field, "-o", (place.folder / "m.stl").string()});
+  check_succeeds(stl);
+  CHECK(fact(stl.out, "file").find(" bytes, coordinates off by ") != std::string::npos);
+}
+
+TEST_CASE("names of files reach no terminal as they are") {
+  const Place place;
+  const std::string name =
+      "a\x1b[31m\nb\x7f\xc2\x9b"
+      "c.ply";
+  const std::string path = (place.folder / name).string();
+  const std::string shown = "a\\x1b[31m\\nb\\x7f";
+  const auto check_printable = [&](const std::string& text) {
+    CAPTURE(text);
+    CHECK(std::none_of(text.begin(), text.end(),
+                       [](char c) { return (c >= 0 && c < ' ' && c != '\n') || c == '\x7f'; }));
+    CHECK(text.find("\xc2\x9b") == std::string::npos);
+  };
+  const Outcome made = run_program({"reconstruct", place.field, "-o", path});
+  check_succeeds(made);
+  check_printable(made.out);
+  CHECK(fact(made.out, "mesh").find(shown) != std::string::npos);
+  const Outcome told = run_program({"info", path});
+  check_succeeds(told);
+  check_printable(told.out);
+  CHECK(fact(told.out, "mesh").find(shown) != std::string::npos);
+  const Outcome json = run_program({"info", path, "--json", "-"});
+  check_succeeds(json);
+  check_printable(json.out);
+  CHECK(nlohmann::json::parse(json.out)["path"] == path);
+  const Outcome missing = run_program({"info", path + ".ply"});
+  CHECK(missing.exit_code == 1);
+  check_printable(missing.err);
+  CHECK(missing.err.find(shown) != std::string::npos);
 }
 
 TEST_CASE("plain names are written to the current folder") {
