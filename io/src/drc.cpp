@@ -66,16 +66,6 @@ Array<Vec3> vectors_of(const std::filesystem::path& path, const DecodedAttribute
   return vectors;
 }
 
-/// The index of the first number that is not finite, if there is one.
-std::optional<std::size_t> first_not_finite(const DecodedAttribute& attribute) {
-  for (std::size_t i = 0; i < attribute.values.size(); ++i) {
-    if (!std::isfinite(attribute.values[i])) {
-      return i;
-    }
-  }
-  return std::nullopt;
-}
-
 /// Gathers the attributes that a mesh has.
 class DrcReader {
  public:
@@ -91,6 +81,7 @@ class DrcReader {
       fail_format(path_, "Draco's data hold no positions");
     }
     move_to_origin();
+    leave_out_not_finite(path_, mesh_);
     omissions_.add_to(mesh_.warnings, path_);
     return std::move(mesh_);
   }
@@ -98,11 +89,10 @@ class DrcReader {
  private:
   void add(const DecodedAttribute& attribute) {
     if (attribute.kind == DracoKind::position && !with_positions_) {
-      add_positions(attribute);
+      mesh_.mesh.positions = vectors_of(path_, attribute, "positions");
+      with_positions_ = true;
     } else if (attribute.kind == DracoKind::normal && mesh_.mesh.normals.empty()) {
-      if (is_finite(attribute, "an attribute of normals")) {
-        mesh_.mesh.normals = vectors_of(path_, attribute, "normals");
-      }
+      mesh_.mesh.normals = vectors_of(path_, attribute, "normals");
     } else if (is_edge_ids(attribute)) {
       mesh_.mesh.edge_ids = joined_digits(path_, attribute.values, 4);
     } else if (attribute.kind == DracoKind::generic && attribute.components == 1 &&
@@ -113,17 +103,10 @@ class DrcReader {
     }
   }
 
-  void add_positions(const DecodedAttribute& attribute) {
-    mesh_.mesh.positions = vectors_of(path_, attribute, "positions");
-    with_positions_ = true;
-    if (const std::optional<std::size_t> bad = first_not_finite(attribute)) {
-      fail_format(path_, "positions of Draco: not finite at point " + std::to_string(*bad / 3));
-    }
-  }
-
-  /// Surfaces can do without other numbers.
+  /// Surfaces can do without scalars that are not.
   bool is_finite(const DecodedAttribute& attribute, const std::string& place) {
-    if (!first_not_finite(attribute)) {
+    if (std::all_of(attribute.values.begin(), attribute.values.end(),
+                    [](double value) { return std::isfinite(value); })) {
       return true;
     }
     omissions_.note(place, "is not finite everywhere, and was left out");
@@ -132,12 +115,12 @@ class DrcReader {
 
   void move_to_origin() {
     const Vec3 origin = decoded_.origin.value_or(Vec3{0, 0, 0});
-    for (Vec3& position : mesh_.mesh.positions) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!std::isfinite(origin[axis])) {
+        fail_format(path_, "the origin in Draco's metadata is not finite");
+      }
+      for (Vec3& position : mesh_.mesh.positions) {
         position[axis] += origin[axis];
-        if (!std::isfinite(position[axis])) {
-          fail_format(path_, "the origin in Draco's metadata is not finite");
-        }
       }
     }
   }

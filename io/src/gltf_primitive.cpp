@@ -8,6 +8,7 @@
 #include "difmesh/error.hpp"
 #include "draco_codec.hpp"
 #include "drc.hpp"
+#include "mesh_check.hpp"
 #include "mesh_formats.hpp"
 #include "text.hpp"
 
@@ -38,13 +39,15 @@ class PrimitiveReader {
     }
     const auto count = static_cast<std::uint64_t>(place_.at("attributes").value().size());
     budget_.take(place_, vertices_ * (24U + 8U * count));
-    surface_.content.mesh.positions = *vectors("POSITION", positions);
+    surface_.content.mesh.positions.resize(vertices_);
+    read_numbers("POSITION", positions, surface_.content.mesh.positions.data()->data());
     read_attributes();
     if (decoded_) {
       surface_.content.mesh.triangles = std::move(decoded_->triangles);
     } else {
       read_triangles();
     }
+    leave_out_unused(positions);
     return std::move(surface_);
   }
 
@@ -75,6 +78,20 @@ class PrimitiveReader {
                      std::to_string(vertices_) + " and " + std::to_string(indices.count / 3));
     }
     budget_.allow(kCopies * (vertices_ * 64U + decoded_->triangles.size() * 12U));
+  }
+
+  /// Vertices without finite coordinates, unless a triangle uses them, which fails.
+  void leave_out_unused(const AccessorView& positions) {
+    leave_out_not_finite(source_.path(), surface_.content, [&](std::size_t v) {
+      return positions.place.place() + ", element " + std::to_string(v);
+    });
+    if (surface_.content.mesh.positions.size() < vertices_) {
+      surface_.content.warnings.clear();
+      surface_.whole_index.clear();
+      source_.omissions().note(place_.place(),
+                               "has vertices without finite coordinates, which no triangle uses; "
+                               "they were left out");
+    }
   }
 
   void read_attributes() {
@@ -139,19 +156,12 @@ class PrimitiveReader {
     }
   }
 
-  /// Whether all numbers are finite. Surfaces can do without normals and scalars that are not, but
-  /// not without positions.
+  /// Whether all numbers are finite. Surfaces can do without normals and scalars that are not.
   bool check_finite(const std::string& name, const AccessorView& view,
                     const double* numbers) const {
     const double* const end = numbers + view.count * view.components;
-    const double* const bad =
-        std::find_if(numbers, end, [](double number) { return !std::isfinite(number); });
-    if (bad == end) {
+    if (std::all_of(numbers, end, [](double number) { return std::isfinite(number); })) {
       return true;
-    }
-    if (name == "POSITION") {
-      view.place.fail("is not finite at element " +
-                      std::to_string(static_cast<std::size_t>(bad - numbers) / view.components));
     }
     source_.omissions().note(place_.at("attributes").at(name.c_str()).place(),
                              "is not finite everywhere, and was left out");

@@ -273,6 +273,25 @@ TEST_CASE("drc: normals and scalars that are not finite are left out") {
         "'" + path.string() + "': the attribute 'k' is not finite everywhere, and was left out.");
 }
 
+TEST_CASE("drc: vertices that are not finite are left out where no triangle uses them") {
+  std::string bytes = "DRACO\2\2\1";
+  bytes += std::string(3, '\0') + "\2\4\1";                   // two faces, four points
+  bytes += std::string("\0\2\3\0\3\2\1\1\0\x9\3\0\0\0", 14);  // the faces, an attribute of floats
+  const float bad = std::numeric_limits<float>::infinity();
+  for (const float x : {0.F, 0.F, 0.F, 1.F, bad, 1.F, 2.F, 0.F, 0.F, 0.F, 2.F, 0.F}) {
+    bytes += test::bytes_of(x);
+  }
+  const TempFolder folder;
+  const ScalarMesh found = difmesh::read_scalar_mesh(folder.file("m.drc", bytes));
+  CHECK(found.mesh.positions == difmesh::Array<Vec3>{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}});
+  CHECK(found.mesh.triangles == difmesh::Array<difmesh::Triangle>{{0, 1, 2}, {0, 2, 1}});
+  CHECK(found.warnings.size() == 1);
+  bytes[15] = '\1';  // the second corner
+  const auto path = folder.file("m.drc", bytes);
+  test::check_error([&] { (void)difmesh::read_mesh(path); }, ErrorCode::file_format,
+                    {"m.drc", "vertex 1", "not finite"});
+}
+
 TEST_CASE("drc: older bitstreams are read by the letter of their versions") {
   // A tetrahedron of Draco's plainest kind: indices in bytes, coordinates as they are.
   const auto bitstream = [](char major, char minor, char geometry) {

@@ -336,6 +336,31 @@ TEST_CASE("gltf: normals and scalars that are not finite are left out") {
   }
 }
 
+TEST_CASE("gltf: vertices that are not finite are left out where no triangle uses them") {
+  Builder builder;
+  std::string data;
+  const float bad = std::numeric_limits<float>::quiet_NaN();
+  for (const float x : {0.F, 0.F, 0.F, 1.F, bad, 1.F, 2.F, 0.F, 0.F, 0.F, 2.F, 0.F}) {
+    data += test::bytes_of(x);
+  }
+  builder.primitive()["attributes"]["POSITION"] =
+      builder.add(data, {{"componentType", 5126}, {"count", 4}, {"type", "VEC3"}});
+  builder.primitive()["attributes"]["_K"] = builder.add(
+      std::string("\0\1\2\3", 4), {{"componentType", 5121}, {"count", 4}, {"type", "SCALAR"}});
+  builder.indices(std::string("\0\2\3", 3), 5121, 3, 4);
+  const difmesh::ScalarMesh found = builder.read();
+  CHECK(found.mesh.positions == difmesh::Array<Vec3>{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}});
+  CHECK(found.mesh.triangles == Triangles{{0, 1, 2}});
+  REQUIRE(found.scalars.size() == 1);
+  CHECK(found.scalars[0].values == difmesh::Array<double>{0, 2, 3});
+  REQUIRE(found.warnings.size() == 1);
+  CHECK(found.warnings[0].find("meshes[0].primitives[0] has vertices without finite coordinates") !=
+        std::string::npos);
+  builder.indices(std::string("\0\1\3", 3), 5121, 3, 4);
+  test::check_error([&] { (void)builder.read(); }, difmesh::ErrorCode::file_format,
+                    {"accessors[0], element 1", "not finite"});
+}
+
 TEST_CASE("base64 of every length and of nothing else") {
   const auto decoded = [](const std::string& text) {
     const auto bytes = difmesh::detail::from_base64(text);

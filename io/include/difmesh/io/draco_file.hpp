@@ -52,7 +52,8 @@ MeshFileReport write_drc(const std::filesystem::path& path, const Mesh& mesh,
 
 /// Reads a .drc file of any encoder since bitstream 1.0: positions, normals, and generic attributes of
 /// one component that have a name. `difmesh_origin` is added. Files of difmesh's own come back with
-/// edge ids. Normals and scalars that are not finite are left out with a warning.
+/// edge ids. Normals and scalars that are not finite are left out with a warning, and so are vertices
+/// that no triangle uses.
 /// \throw Error as read_mesh(); also for point clouds.
 [[nodiscard]] ScalarMesh read_drc(const std::filesystem::path& path);
 

@@ -86,12 +86,12 @@ MeshFileReport write_gltf(const std::filesystem::path& path, const Mesh& mesh,
 /// plain or compressed by Draco, moved to where their nodes put them and joined to one mesh in the
 /// order of the scene. Materials, textures and animations are skipped. So are, with a warning where
 /// viewers would show something else, points and lines, primitives without positions, skins, morph
-/// targets, copies by EXT_mesh_gpu_instancing, extensions that are not known here, and normals and
-/// scalars that are not finite. Accessors without data are zero. Positions, normals and scalars may
-/// have any type that glTF allows for them. Normals, edge ids and scalars are kept where all
-/// primitives have them; scalars are attributes of one number whose name starts with an underscore,
-/// in small letters here. What write_gltf() wrote comes back in the coordinates and unit that it was
-/// given, and undivided.
+/// targets, copies by EXT_mesh_gpu_instancing, extensions that are not known here, and what is not
+/// finite: normals, scalars, vertices of no triangle. Accessors without data are zero. Positions,
+/// normals and scalars may have any type that glTF allows for them. Normals, edge ids and scalars are
+/// kept where all primitives have them; scalars are attributes of one number whose name starts with
+/// an underscore, in small letters here. What write_gltf() wrote comes back in the coordinates and
+/// unit that it was given, and undivided.
 ///
 /// Buffers are within the file, in base64, or in files in the same folder or below; elsewhere where
 /// the options allow it.
