@@ -198,7 +198,7 @@ std::optional<std::string> rounding_warning(const SurfaceOutput& output,
   }
   std::string text = "'" + output.path + "': coordinates are off by up to " +
                      rounded(report.position_error, 3) + ", " +
-                     rounded(report.position_error / cell_size, 3) + " of the spacing";
+                     rounded(report.position_error / cell_size, 3) + " times the spacing";
   if (report.collapsed_triangles > 0) {
     text += ", and " + std::to_string(report.collapsed_triangles) + " of " +
             count_of(report.triangles, "triangle") + " collapse";

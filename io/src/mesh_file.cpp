@@ -40,8 +40,15 @@ constexpr std::array<KnownFormat, 7> kFormats{{{".ply", MeshFormat::ply},
                                                {".gltf", MeshFormat::gltf},
                                                {".drc", MeshFormat::drc}}};
 
-bool has_corner_twice(const std::array<Vec3, 3>& corners) {
-  return corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
+/// Whether a triangle's area is not exactly 0, as measure() sees it.
+bool has_area(const std::array<Vec3, 3>& corners) {
+  Vec3 u{};
+  Vec3 v{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    u[axis] = corners[1][axis] - corners[0][axis];
+    v[axis] = corners[2][axis] - corners[0][axis];
+  }
+  return u[1] * v[2] != u[2] * v[1] || u[2] * v[0] != u[0] * v[2] || u[0] * v[1] != u[1] * v[0];
 }
 
 /// What float32 does to the triangles.
@@ -57,8 +64,7 @@ void report_rounding(const Mesh& mesh, MeshFileReport& report) {
             std::max(report.position_error, std::abs(exact[c][axis] - rounded[c][axis]));
       }
     }
-    const bool collapsed = has_corner_twice(rounded) && !has_corner_twice(exact);
-    report.collapsed_triangles += collapsed ? 1 : 0;
+    report.collapsed_triangles += has_area(exact) && !has_area(rounded) ? 1 : 0;
   }
 }
 

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "difmesh/io/field_file.hpp"
 #include "difmesh/io/mesh_file.hpp"
+#include "difmesh/measure.hpp"
 #include "io/files.hpp"
 #include "program.hpp"
 
@@ -167,17 +167,16 @@ TEST_CASE("a far origin is too much for stl and warned of") {
   double error = 0.0;
   std::int64_t collapsed = 0;
   for (const difmesh::Triangle& t : exact.triangles) {
-    std::set<std::array<float, 3>> corners;
-    for (const std::uint32_t v : t) {
-      const difmesh::Vec3& p = exact.positions[v];
-      const std::array<float, 3> rounded{static_cast<float>(p[0]), static_cast<float>(p[1]),
-                                         static_cast<float>(p[2])};
+    std::array<difmesh::Vec3, 3> corners{};
+    for (std::size_t c = 0; c < 3; ++c) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        error = std::max(error, std::abs(p[axis] - static_cast<double>(rounded[axis])));
+        const double coordinate = exact.positions[t[c]][axis];
+        corners[c][axis] = static_cast<double>(static_cast<float>(coordinate));
+        error = std::max(error, std::abs(coordinate - corners[c][axis]));
       }
-      corners.insert(rounded);
     }
-    collapsed += corners.size() < 3 ? 1 : 0;
+    const difmesh::Triangle whole{0, 1, 2};
+    collapsed += difmesh::measure(corners, {&whole, 1}).area == 0.0 ? 1 : 0;
   }
   CHECK(error > 0.1);  // ulps of float32 are 1/2 there
   CHECK(collapsed > 100);
@@ -187,16 +186,20 @@ TEST_CASE("a far origin is too much for stl and warned of") {
   REQUIRE(report["warnings"].size() == 1);
   CHECK(stl.err == "difmesh: warning: " + report["warnings"][0].get<std::string>() + "\n");
   for (const std::string& word : {std::string("far.stl"), std::to_string(collapsed) + " of ",
-                                  std::string(" of the spacing")}) {
+                                  std::string(" times the spacing")}) {
     CHECK_MESSAGE(stl.err.find(word) != std::string::npos, word);
   }
-  CHECK(fact(stl.out, "file").find("coordinates off by 0.2") != std::string::npos);
+  const std::string file = fact(stl.out, "file");
+  const std::string words = "coordinates off by ";
+  REQUIRE(file.find(words) != std::string::npos);
+  CHECK(std::stod(file.substr(file.find(words) + words.size())) ==
+        doctest::Approx(error).epsilon(0.01));
 
   // Without triangles that collapse it is a matter of the spacing: 3e-4 of it, then 0.03.
   check_succeeds(run("near.stl", {"--origin", "5000", "--spacing", "1"}));
   const Outcome coarse = run("coarse.stl", {"--origin", "500000", "--spacing", "1"});
   CHECK(coarse.exit_code == 0);
-  CHECK(coarse.err.find("of the spacing; ") != std::string::npos);
+  CHECK(coarse.err.find(" times the spacing") != std::string::npos);
 }
 
 TEST_CASE("what is in the file is told for every format") {

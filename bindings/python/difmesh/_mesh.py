@@ -83,7 +83,7 @@ class WriteReport:
     position_bits: int  #: of Draco; 0 without
     position_error: float  #: no coordinate is off by more; exact for STL, 0 for PLY, OBJ and OFF
     local_origin: tuple[float, float, float]  #: glTF, Draco: positions are relative to it; else 0
-    #: STL: with three corners apart of which float32 makes two or all the same; else 0
+    #: STL: triangles that lose their area in float32; else 0
     collapsed_triangles: int
 
 

@@ -821,7 +821,7 @@ typedef struct dif_mesh_write_report {
   int32_t reserved;
   double position_error;  /* no coordinate is off by more; exact for STL, 0 for PLY, OBJ, OFF */
   double local_origin[3]; /* glTF, Draco: what positions are relative to in the file; else 0 */
-  int64_t collapsed_triangles; /* STL: that lose a corner in float32; else 0 */
+  int64_t collapsed_triangles; /* STL: that lose their area in float32; else 0 */
 } dif_mesh_write_report;
 
 /* Prepares an output struct. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */

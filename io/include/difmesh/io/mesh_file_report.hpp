@@ -22,8 +22,8 @@ struct MeshFileReport {
   /// more, by at most 2^-53 of the coordinate.
   double position_error = 0.0;
   Vec3 local_origin{0, 0, 0};  ///< glTF, Draco: what positions are relative to in the file; else 0
-  /// STL: triangles with three corners apart of which float32 makes two or all the same; other
-  /// formats, whose positions are not rounded or relative to an origin nearby: 0.
+  /// STL: triangles that lose their area, all of it, in float32; other formats, whose positions are not
+  /// rounded or relative to an origin nearby: 0.
   std::int64_t collapsed_triangles = 0;
 };
 
