@@ -65,7 +65,7 @@ bool GraphQuadrature::run(SampledFunction& f) {
   exhausted_ = false;
   roots_.reset_misfit();
   find_panels(f);
-  for (int round = 0; !panels_.empty(); ++round) {
+  while (!panels_.empty()) {
     refine_ = f.calls() < last_call_;
     columns_.clear();
     lines_.clear();
