@@ -92,7 +92,8 @@ TEST_CASE("options out of range are refused") {
     CHECK(refused(&FractionsFromFunctionOptions::tolerance, tolerance));
     CHECK(refused(&FractionsFromFunctionOptions::kink_tolerance, tolerance));
   }
-  CHECK(refused(&FractionsFromFunctionOptions::max_calls_per_cell, 10));
+  CHECK(refused(&FractionsFromFunctionOptions::max_calls_per_cell, 999));
+  CHECK(refused(&FractionsFromFunctionOptions::max_calls_per_cell, 1'000'000'001));
   CHECK(refused(&FractionsFromFunctionOptions::threads, -1));
   const std::int64_t huge = (std::int64_t{1} << 31) - 3;
   CHECK(code_of({{huge, huge, 1}, {0, 0, 0}, {1, 1, 1}}, f) == ErrorCode::too_large);
