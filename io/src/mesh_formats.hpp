@@ -52,11 +52,4 @@ inline void write_vector(AtomicFile& file, const Vec3& vector) {
   file.write_number(vector[2]);
 }
 
-/// Appends a polygon as a fan about its first corner.
-inline void append_fan(Array<Triangle>& triangles, const std::vector<std::uint32_t>& corners) {
-  for (std::size_t c = 2; c < corners.size(); ++c) {
-    triangles.push_back({corners[0], corners[c - 1], corners[c]});
-  }
-}
-
 }  // namespace difmesh::detail
