@@ -10,7 +10,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <vector>
 
 #include "atomic_file.hpp"
 #include "difmesh/io/vertex_scalars.hpp"
