@@ -9,14 +9,15 @@
 
 #include "difmesh/io/mesh_file.hpp"
 #include "difmesh/measure.hpp"
+#include "io/cube.hpp"
 #include "io/files.hpp"
 
 namespace {
 
 using difmesh::ErrorCode;
-using difmesh::Measure;
 using difmesh::ScalarMesh;
 using test::bytes_of;
+using test::check_cube;
 using test::check_error;
 using test::TempFolder;
 
@@ -91,16 +92,6 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 ScalarMesh read(const std::string& bytes) {
   const TempFolder folder;
   return difmesh::read_scalar_mesh(folder.file("m.ply", bytes));
-}
-
-void check_cube(const ScalarMesh& read) {
-  const Measure m = difmesh::measure(read.mesh);
-  CHECK(m.triangles == 12);
-  CHECK(m.vertices == 8);
-  CHECK(m.closed);
-  CHECK(m.manifold);
-  CHECK(m.area == doctest::Approx(24.0).epsilon(1e-15));
-  CHECK(m.volume == doctest::Approx(8.0).epsilon(1e-15));
 }
 
 void check_silent_cube(const std::string& bytes) {

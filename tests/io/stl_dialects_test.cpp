@@ -8,6 +8,7 @@
 
 #include "difmesh/io/mesh_file.hpp"
 #include "difmesh/measure.hpp"
+#include "io/cube.hpp"
 #include "io/files.hpp"
 
 namespace {
@@ -15,6 +16,7 @@ namespace {
 using difmesh::ErrorCode;
 using difmesh::Measure;
 using difmesh::ScalarMesh;
+using test::check_cube;
 using test::check_error;
 using test::TempFolder;
 
@@ -91,16 +93,6 @@ std::string binary(const std::string& header, std::uint32_t count) {
 ScalarMesh read(const std::string& bytes) {
   const TempFolder folder;
   return difmesh::read_scalar_mesh(folder.file("m.stl", bytes));
-}
-
-void check_cube(const ScalarMesh& read) {
-  const Measure m = difmesh::measure(read.mesh);
-  CHECK(m.triangles == 12);
-  CHECK(m.vertices == 8);
-  CHECK(m.closed);
-  CHECK(m.manifold);
-  CHECK(m.area == doctest::Approx(24.0).epsilon(1e-15));
-  CHECK(m.volume == doctest::Approx(8.0).epsilon(1e-15));
 }
 
 void check_silent_cube(const std::string& bytes) {
