@@ -35,13 +35,6 @@ c::FieldFileHandle read(const std::filesystem::path& path, const dif_field_read_
   return c::FieldFileHandle(file);
 }
 
-dif_field field_of(const c::FieldFileHandle& file) {
-  dif_field field{};
-  field.struct_size = sizeof field;
-  REQUIRE(dif_field_file_field(file.get(), &field) == DIF_OK);
-  return field;
-}
-
 std::vector<std::string> warnings_of(const c::FieldFileHandle& file) {
   std::vector<std::string> warnings;
   const char* text = nullptr;
@@ -60,7 +53,7 @@ TEST_CASE("what values of a file stand for is an option") {
   const auto path = folder.file("scan.nrrd", std::string(kHeader) + "\n" + samples());
   dif_field_read_options options = c::prepared(dif_field_read_options_init);
   const auto plain = read(path, &options);
-  CHECK(field_of(plain).type == DIF_FLOAT32);
+  CHECK(c::field_of(plain).type == DIF_FLOAT32);
   std::int32_t type = 0;
   REQUIRE(dif_field_file_type(plain.get(), &type) == DIF_OK);
   CHECK(type == DIF_INT16);
@@ -77,8 +70,8 @@ TEST_CASE("what values of a file stand for is an option") {
   options.labels = labels;
   const auto mask = read(path, &options);
   CHECK(warnings_of(mask).empty());
-  REQUIRE(field_of(mask).type == DIF_UINT8);
-  const auto* const cells = static_cast<const std::uint8_t*>(field_of(mask).data);
+  REQUIRE(c::field_of(mask).type == DIF_UINT8);
+  const auto* const cells = static_cast<const std::uint8_t*>(c::field_of(mask).data);
   CHECK(std::vector<int>(cells, cells + 4) == std::vector<int>{0, 255, 0, 255});
 
   options = c::prepared(dif_field_read_options_init);
@@ -86,7 +79,7 @@ TEST_CASE("what values of a file stand for is an option") {
   options.full_value = 5;
   options.empty_value = 9;
   const auto scaled = read(path, &options);
-  const auto* const fractions = static_cast<const float*>(field_of(scaled).data);
+  const auto* const fractions = static_cast<const float*>(c::field_of(scaled).data);
   CHECK(std::vector<float>(fractions, fractions + 4) == std::vector<float>{1.0F, 0.5F, 0.0F, 0.0F});
 }
 
@@ -103,7 +96,7 @@ TEST_CASE("a grid of the caller's takes the place of one that makes no sense") {
   options.has_origin = 1;
   options.origin[0] = -4.0;
   const auto file = read(path, &options);
-  const dif_field field = field_of(file);
+  const dif_field field = c::field_of(file);
   CHECK(field.spacing[0] == 1.0);
   CHECK(field.spacing[2] == 3.0);
   CHECK(field.origin[0] == -4.0);
@@ -119,7 +112,7 @@ TEST_CASE("data outside the folder of a header are read where that is allowed") 
   CHECK(none == nullptr);
   dif_field_read_options options = c::prepared(dif_field_read_options_init);
   options.outside_files = 1;
-  CHECK(field_of(read(path, &options)).dims[0] == 4);
+  CHECK(c::field_of(read(path, &options)).dims[0] == 4);
 }
 
 TEST_CASE("buffers outside the folder of a glTF file are read where that is allowed") {

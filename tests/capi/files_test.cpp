@@ -30,13 +30,6 @@ c::FieldFileHandle read_field(const std::filesystem::path& path,
   return c::FieldFileHandle(file);
 }
 
-dif_field field_of(const c::FieldFileHandle& file) {
-  dif_field field{};
-  field.struct_size = sizeof field;
-  REQUIRE(dif_field_file_field(file.get(), &field) == DIF_OK);
-  return field;
-}
-
 }  // namespace
 
 TEST_CASE("meshes and fields come back from files") {
@@ -67,7 +60,7 @@ TEST_CASE("meshes and fields come back from files") {
 
   REQUIRE(dif_field_write(&field, (folder / "blob.nrrd").c_str(), nullptr) == DIF_OK);
   const auto file = read_field(folder / "blob.nrrd");
-  const dif_field back = field_of(file);
+  const dif_field back = c::field_of(file);
   CHECK(back.type == DIF_FLOAT64);
   CHECK(back.origin[0] == -4.5);
   CHECK(back.spacing[2] == 0.125);
@@ -78,7 +71,7 @@ TEST_CASE("meshes and fields come back from files") {
   small.format = DIF_FIELD_FORMAT_NPY;
   REQUIRE(dif_field_write(&field, (folder / "blob.npy").c_str(), &small) == DIF_OK);
   const auto bytes = read_field(folder / "blob.npy");
-  const dif_field of_bytes = field_of(bytes);
+  const dif_field of_bytes = c::field_of(bytes);
   REQUIRE(of_bytes.type == DIF_UINT8);
   for (std::size_t n = 0; n < blob.values.size(); ++n) {
     REQUIRE(static_cast<const std::uint8_t*>(of_bytes.data)[n] ==
@@ -92,8 +85,8 @@ TEST_CASE("meshes and fields come back from files") {
   layout.offset =
       static_cast<std::int64_t>(std::filesystem::file_size(folder / "blob.npy")) - 12 * 11 * 10;
   const auto raw = read_field(folder / "blob.npy", &layout);
-  CHECK(std::equal(static_cast<const std::uint8_t*>(field_of(raw).data),
-                   static_cast<const std::uint8_t*>(field_of(raw).data) + 1320,
+  CHECK(std::equal(static_cast<const std::uint8_t*>(c::field_of(raw).data),
+                   static_cast<const std::uint8_t*>(c::field_of(raw).data) + 1320,
                    static_cast<const std::uint8_t*>(of_bytes.data)));
 }
 

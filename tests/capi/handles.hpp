@@ -74,6 +74,14 @@ template <class Struct>
   return MeshHandle(mesh);
 }
 
+/// The field in a file that was read; it borrows the file's memory.
+[[nodiscard]] inline dif_field field_of(const FieldFileHandle& file) {
+  dif_field field{};
+  field.struct_size = sizeof field;
+  REQUIRE(dif_field_file_field(file.get(), &field) == DIF_OK);
+  return field;
+}
+
 /// A copy of the arrays behind a handle.
 [[nodiscard]] inline Mesh mesh_of(const dif_mesh* handle) {
   Mesh mesh;
