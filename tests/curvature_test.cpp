@@ -59,7 +59,7 @@ TriangleMesh moved(TriangleMesh mesh) {
   const Vec3 x = unit({1.0, 2.0, -0.5});
   const Vec3 helper{0.3, -1.0, 2.0};
   const Vec3 y = unit(subtract(helper, scaled(x, dot(helper, x))));
-  const Vec3 z{x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
+  const Vec3 z = cross(x, y);
   for (Vec3& p : mesh.positions) {
     p = add({10.0, -3.0, 7.0}, add(scaled(x, p[0]), add(scaled(y, p[1]), scaled(z, p[2]))));
   }
@@ -118,6 +118,27 @@ TEST_CASE("curvature: paraboloids are exact at their apex however they are turne
     CHECK(std::abs(curvature.gaussian[apex] - (4.0 * a * c - b * b)) < 1e-11);
     CHECK(std::abs(curvature.largest[apex] + (a + c) - half) < 1e-11);
     CHECK(std::abs(curvature.smallest[apex] + (a + c) + half) < 1e-11);
+  }
+}
+
+TEST_CASE("curvature: rows of vertices that stand far apart do as well as a square lattice") {
+  // Vertices lie `stretch` times closer along one direction than across it, whatever the frame of the fit.
+  for (const double stretch : {3.0, 20.0, 60.0}) {
+    for (int turn = 0; turn < 8; ++turn) {
+      const double angle = 0.2 + 0.25 * std::numbers::pi * turn;
+      TriangleMesh mesh = Paraboloid{0.7, 0.4, -0.3}.mesh(7);
+      for (Vec3& p : mesh.positions) {
+        const double along = p[0] / stretch;
+        const double x = std::cos(angle) * along - std::sin(angle) * p[1];
+        const double y = std::sin(angle) * along + std::cos(angle) * p[1];
+        p = {x, y, 0.7 * x * x + 0.4 * x * y - 0.3 * y * y};
+      }
+      const Curvature curvature = curvature_of(moved(mesh));
+      CAPTURE(stretch);
+      CAPTURE(turn);
+      CHECK(std::abs(curvature.mean[Paraboloid::kApex] + 0.4) < 1e-9 * stretch * stretch);
+      CHECK(std::abs(curvature.gaussian[Paraboloid::kApex] + 1.0) < 1e-9 * stretch * stretch);
+    }
   }
 }
 

@@ -2,15 +2,20 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "difmesh/error.hpp"
 #include "difmesh/reconstruct.hpp"
 #include "support/fields.hpp"
+#include "support/vec3.hpp"
 
 namespace {
 
@@ -21,6 +26,7 @@ using difmesh::Grid;
 using difmesh::Index3;
 using difmesh::NormalSource;
 using difmesh::Options;
+using difmesh::Vec3;
 namespace test = difmesh::test;
 
 const Grid kGrid{.dims = {24, 21, 19}, .origin = {1.0, 2.0, 3.0}, .spacing = {0.5, 1.0, 2.0}};
@@ -33,6 +39,68 @@ std::vector<CellPlane> planes_of(const FieldView& field, const difmesh::Array<In
   difmesh::cell_planes(field, kGrid, cells, options, planes);
   return planes;
 }
+
+/// MYC in a field of 3x3x3 cubes, written down from Aulisa et al. (2007), section 2: of the centred
+/// differences of columns along the three axes the one whose own component is largest, unless Youngs'
+/// gradient has a smaller largest component.
+struct PublishedMyc {
+  Vec3 normal{0.0, 0.0, 0.0};  ///< Σ|component| = 1
+  double clearance = 1.0;      ///< how far the decisions are from turning
+
+  explicit PublishedMyc(test::OwnedField& field) {
+    const Vec3 youngs = gradient(field);
+    const double youngs_largest = largest(youngs);
+    std::vector<std::pair<double, Vec3>> candidates;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Vec3 candidate = of_columns(field, axis);
+      candidates.emplace_back(std::abs(candidate[axis]), candidate);
+    }
+    std::sort(candidates.begin(), candidates.end(),
+              [](const auto& a, const auto& b) { return a.first > b.first; });
+    normal = candidates[0].first > youngs_largest ? youngs : candidates[0].second;
+    clearance = std::min(candidates[0].first - candidates[1].first,
+                         std::abs(candidates[0].first - youngs_largest));
+  }
+
+ private:
+  static double largest(const Vec3& v) {
+    return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
+  }
+  static Vec3 to_unit_sum(const Vec3& v) {
+    return test::scaled(v, 1.0 / (std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2])));
+  }
+  static double fraction(test::OwnedField& field, const Index3& step) {
+    return field.at(1 + step[0], 1 + step[1], 1 + step[2]);
+  }
+  static Vec3 gradient(test::OwnedField& field) {
+    Vec3 sum{0.0, 0.0, 0.0};
+    for (std::int64_t n = 0; n < 27; ++n) {
+      const Index3 step{n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
+      const std::int64_t away = std::abs(step[0]) + std::abs(step[1]) + std::abs(step[2]);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        // In its layer 4 for the cell in the middle, 2 at the edges, 1 at the corners.
+        const double weight = std::exp2(static_cast<double>(3 - away));
+        sum[axis] -= weight * static_cast<double>(step[axis]) * fraction(field, step);
+      }
+    }
+    return to_unit_sum(sum);
+  }
+  static Vec3 of_columns(test::OwnedField& field, std::size_t axis) {
+    Vec3 m{0.0, 0.0, 0.0};
+    double lower_minus_upper = 0.0;
+    for (std::int64_t n = 0; n < 27; ++n) {
+      const Index3 step{n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
+      lower_minus_upper -= static_cast<double>(step[axis]) * fraction(field, step);
+      for (const std::size_t other : {(axis + 1) % 3, (axis + 2) % 3}) {
+        if (step[3 - axis - other] == 0) {
+          m[other] -= 0.5 * static_cast<double>(step[other]) * fraction(field, step);
+        }
+      }
+    }
+    m[axis] = lower_minus_upper > 0.0 ? 1.0 : -1.0;
+    return to_unit_sum(m);
+  }
+};
 
 }  // namespace
 
@@ -128,4 +196,49 @@ TEST_CASE("cell planes can be cancelled and name a cell outside the grid") {
     CHECK(error.code() == ErrorCode::invalid_argument);
     CHECK(std::string(error.what()).find("number 1 of the list, (0, 21, 0)") != std::string::npos);
   }
+}
+
+TEST_CASE("myc is as published where candidates nearly tie and where the fractions hardly vary") {
+  const Grid grid{.dims = {3, 3, 3}};
+  const std::vector<Index3> middle{{1, 1, 1}};
+  Options options;
+  options.normals = difmesh::Normals::myc;
+  std::size_t near_ties = 0;
+  std::size_t compared = 0;
+  for (const double disturbance : {1.0, 1e-2, 1e-3, 1e-5, 1e-7, 1e-9}) {
+    for (const double contrast : {1.0, 1e-3, 1e-6}) {
+      for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        // Symmetric in two axes but for the disturbance.
+        test::OwnedField noise = test::white_noise(grid.dims, seed);
+        test::OwnedField other = test::white_noise(grid.dims, seed + 1000);
+        test::OwnedField field = noise;
+        for (std::int64_t n = 0; n < 27; ++n) {
+          const Index3 at{n % 3, n / 3 % 3, n / 9};
+          const Index3 swapped =
+              seed % 2 == 0 ? Index3{at[1], at[0], at[2]} : Index3{at[0], at[2], at[1]};
+          const double pair =
+              0.5 * (noise.at(at[0], at[1], at[2]) + noise.at(swapped[0], swapped[1], swapped[2]));
+          field.at(at[0], at[1], at[2]) =
+              0.4 +
+              0.4 * contrast * (pair - 0.5 + disturbance * (other.at(at[0], at[1], at[2]) - 0.5));
+        }
+        const PublishedMyc expected(field);
+        if (expected.clearance < 1e-11 / contrast) {
+          continue;
+        }
+        std::vector<CellPlane> planes(1);
+        difmesh::cell_planes(field.view(), grid, middle, options, planes);
+        CAPTURE(disturbance);
+        CAPTURE(contrast);
+        CAPTURE(seed);
+        REQUIRE(planes[0].source != NormalSource::none);
+        const Vec3 away = test::subtract(planes[0].plane.normal, test::unit(expected.normal));
+        REQUIRE(test::length(away) < 1e-14 / contrast + 1e-14);
+        ++compared;
+        near_ties += expected.clearance < 1e-3 ? 1U : 0U;
+      }
+    }
+  }
+  CHECK(compared > 500);
+  CHECK(near_ties > 300);
 }
