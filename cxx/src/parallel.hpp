@@ -12,9 +12,9 @@
 #include "difmesh/options.hpp"
 
 #ifdef DIFMESH_WITH_TBB
-#include <tbb/info.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
+
+#include "arena_lease.hpp"
 #endif
 
 namespace difmesh::detail {
@@ -26,10 +26,8 @@ class Workers {
   /// \param threads 0: as many as the machine has
   explicit Workers(int threads)
 #ifdef DIFMESH_WITH_TBB
-      // Asked for more threads than there are, oneTBB would print a warning.
-      : threads_(threads > 0 ? std::min(threads, tbb::info::default_concurrency())
-                             : tbb::info::default_concurrency()),
-        arena_(threads > 0 ? threads_ : tbb::task_arena::automatic)
+      : arena_(threads),
+        threads_(arena_.concurrency())
 #endif
   {
     if (threads < 0) {
@@ -51,7 +49,7 @@ class Workers {
     };
 #ifdef DIFMESH_WITH_TBB
     if (threads_ > 1 && portions > 1) {
-      arena_.execute([&] {
+      arena_->execute([&] {
         tbb::parallel_for(std::int64_t{0}, portions, [&](std::int64_t portion) {
           // oneTBB's threads have the settings of whoever made them or the arena.
           std::optional<DefaultFloatEnvironment> environment;
@@ -71,8 +69,8 @@ class Workers {
 
  private:
 #ifdef DIFMESH_WITH_TBB
+  ArenaLease arena_;
   int threads_;
-  tbb::task_arena arena_;
 #else
   int threads_ = 1;
 #endif

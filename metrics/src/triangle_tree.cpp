@@ -1,7 +1,6 @@
 #include "triangle_tree.hpp"
 
 #include <embree3/rtcore.h>
-#include <tbb/info.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -11,6 +10,9 @@
 #include <string>
 
 #include "difmesh/error.hpp"
+#ifdef DIFMESH_WITH_TBB
+#include "arena_lease.hpp"
+#endif
 
 namespace difmesh::detail {
 namespace {
@@ -33,13 +35,16 @@ float above(double x) {
   return std::nextafter(static_cast<float>(x), kInfinity);
 }
 
-/// Embree is in parallel by oneTBB even where the library is not.
-int arena_size([[maybe_unused]] int threads) {
+/// Calls the body in an arena of at most `threads` threads: Embree takes its threads from the arena that
+/// it is called in, and is in parallel by oneTBB even where the library is not.
+template <class Body>
+void with_threads([[maybe_unused]] int threads, const Body& body) {
 #ifdef DIFMESH_WITH_TBB
-  return threads > 0 ? std::min(threads, tbb::info::default_concurrency())
-                     : tbb::task_arena::automatic;
+  ArenaLease arena(threads);
+  arena->execute(body);
 #else
-  return 1;
+  tbb::task_arena arena(1);
+  arena.execute(body);
 #endif
 }
 
@@ -150,9 +155,7 @@ TriangleTree::TriangleTree(const SurfaceView& surface, int threads) : surface_(s
   slack_ = 0x1p-40 * half_side;
   device_.reset(rtcNewDevice(kDeviceSettings));
   throw_failure("start");
-  // Embree takes its threads from the arena that it is called in.
-  tbb::task_arena arena(arena_size(threads));
-  arena.execute([this] { build(); });
+  with_threads(threads, [this] { build(); });
   throw_failure("build its tree");
 }
 
