@@ -34,6 +34,8 @@
  *   filled as far as they reach; bytes beyond become 0. Sizes are multiples of 8. Fields called
  *   `reserved` must be 0.
  * Options. NULL in place of an options struct means the defaults.
+ * Pointers. `double* x` points to one number, `double x[]` to as many as the function's comment
+ *   says. NULL is refused unless that comment or these lines say that `x` may be NULL.
  * Handles (dif_mesh and others) are opaque. Whoever gets one frees it, once, with its _free
  *   function, which takes NULL too.
  * Borrowed pointers, such as those of dif_mesh_positions(), belong to the handle and are valid until
@@ -277,21 +279,22 @@ DIF_API dif_status dif_mesh_report(const dif_mesh* mesh, dif_report* report);
 
 /* A mesh from arrays, which are copied. Coordinates are not looked at.
  * Errors: INVALID_ARGUMENT (an index out of range is named), TOO_LARGE, OUT_OF_MEMORY. Since 0.1. */
-DIF_API dif_status dif_mesh_from_arrays(const double* positions, int64_t vertices,
-                                        const uint32_t* indices, int64_t triangles,
+DIF_API dif_status dif_mesh_from_arrays(const double positions[], int64_t vertices,
+                                        const uint32_t indices[], int64_t triangles,
                                         dif_mesh** mesh);
 
-/* Gives a mesh normals, three numbers per vertex, or names of edges; they are copied. NULL removes
- * what there is. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. Since 0.1. */
-DIF_API dif_status dif_mesh_set_normals(dif_mesh* mesh, const double* normals);
-DIF_API dif_status dif_mesh_set_edge_ids(dif_mesh* mesh, const uint64_t* ids);
+/* Gives a mesh normals, three numbers per vertex, or names of edges; they are copied. `normals` and
+ * `ids` may be NULL, which removes what there is.
+ * Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. Since 0.1. */
+DIF_API dif_status dif_mesh_set_normals(dif_mesh* mesh, const double normals[]);
+DIF_API dif_status dif_mesh_set_edge_ids(dif_mesh* mesh, const uint64_t ids[]);
 
 /* Scalars: numbers of your own that go with the vertices, under a name of letters, digits and
  * underscores. Those of a file come with dif_mesh_read(); PLY, glTF and Draco files take them. */
 
-/* Gives a mesh scalars, one number per vertex, which are copied, in place of those of the same name.
- * NULL removes these. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. Since 0.1. */
-DIF_API dif_status dif_mesh_set_scalars(dif_mesh* mesh, const char* name, const double* values);
+/* Gives a mesh scalars, one number per vertex, copied, in place of those of the same name.
+ * `values` may be NULL, which removes these. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. Since 0.1. */
+DIF_API dif_status dif_mesh_set_scalars(dif_mesh* mesh, const char* name, const double values[]);
 /* Borrowed: the name of the scalars number `index`, from 0; NULL from their count on. Errors:
  * INVALID_ARGUMENT. Since 0.1. */
 DIF_API dif_status dif_mesh_scalars_name(const dif_mesh* mesh, int64_t index, const char** name);
@@ -327,12 +330,13 @@ DIF_API dif_status dif_mesh_copy_triangles(const dif_mesh* mesh, int32_t type, i
  * Errors: INVALID_ARGUMENT (a normal that is 0 or not finite, an offset that is not; its index is
  * named), INVALID_GRID (spacing). On an error, fractions of planes before the bad one are written.
  * Cost: some 10 ns each. Since 0.1. */
-DIF_API dif_status dif_plane_fraction(const double spacing[3], int64_t count, const double* normals,
-                                      const double* offsets, double* fractions);
+DIF_API dif_status dif_plane_fraction(const double spacing[3], int64_t count,
+                                      const double normals[], const double offsets[],
+                                      double fractions[]);
 /* The inverse, exact to 1e-14 in the fraction: offsets of planes below which `fractions` of the
  * cells lie, clamped to [0, 1]. Errors: likewise. Cost: up to 100 ns each. Since 0.1. */
-DIF_API dif_status dif_plane_offset(const double spacing[3], int64_t count, const double* normals,
-                                    const double* fractions, double* offsets);
+DIF_API dif_status dif_plane_offset(const double spacing[3], int64_t count, const double normals[],
+                                    const double fractions[], double offsets[]);
 
 /* Where a normal came from. */
 enum {
@@ -345,13 +349,13 @@ enum {
 
 /* Unit normals, out of the material, and offsets of the planes of `count` cells, by options->normals,
  * sides and purity_tolerance. cells: 3 count indices, in [0, dims). normals: 3 count numbers;
- * offsets, sources: count; any of the three may be NULL. The field is read only near these cells; NaN
- * there counts as 0.
+ * offsets, sources: count. `normals`, `offsets` and `sources` may be NULL. The field is read only
+ * near these cells; NaN there counts as 0.
  * Errors: as dif_reconstruct(). Cost: 0.1 to 0.3 microseconds per cell, 7 to 9 by ELVIRA
  * and LVIRA. Since 0.1. */
 DIF_API dif_status dif_cell_planes(const dif_field* field, const dif_options* options,
-                                   int64_t count, const int64_t* cells, double* normals,
-                                   double* offsets, int32_t* sources);
+                                   int64_t count, const int64_t cells[], double normals[],
+                                   double offsets[], int32_t sources[]);
 
 /* Arrays of a flow solver, one element per cell: that of cell (i, j, k) is at i strides[0] +
  * j strides[1] + k strides[2] from the pointer. Pointers may be NULL where a result is not wanted. */
@@ -390,9 +394,10 @@ DIF_API dif_status dif_grid_init(dif_grid* grid, uint64_t struct_size, const int
 
 /* Writes f(points[i]) to values[i], i < count, f < 0 inside. Called from several threads at once
  * unless `threads` is 1. Returns 0 to go on; anything else cancels. */
-typedef int32_t (*dif_function)(void* user, int64_t count, const double* points, double* values);
+typedef int32_t (*dif_function)(void* user, int64_t count, const double points[], double values[]);
 /* Writes the gradients of f, three numbers each, likewise. */
-typedef int32_t (*dif_gradient)(void* user, int64_t count, const double* points, double* gradients);
+typedef int32_t (*dif_gradient)(void* user, int64_t count, const double points[],
+                                double gradients[]);
 
 typedef struct dif_function_options {
   uint64_t struct_size;
@@ -433,7 +438,7 @@ DIF_API dif_status dif_function_report_init(dif_function_report* report, uint64_
  * STRUCT, TOO_LARGE, OUT_OF_MEMORY, CANCELLED. Since 0.1. */
 DIF_API dif_status dif_fractions_from_function(const dif_grid* grid, dif_function f, void* user,
                                                const dif_function_options* options,
-                                               dif_function_report* report, double* fractions);
+                                               dif_function_report* report, double fractions[]);
 
 /* What to do where parts of a mesh overlap: where its winding number, which counts how often a point
  * is inside, exceeds 1. */
@@ -491,7 +496,7 @@ DIF_API dif_status dif_triangle_report_init(dif_triangle_report* report, uint64_
  * triangles, column or cell are named), INVALID_GRID, STRUCT, TOO_LARGE, OUT_OF_MEMORY, CANCELLED. Since 0.1. */
 DIF_API dif_status dif_fractions_from_mesh(const dif_grid* grid, const dif_mesh* mesh,
                                            const dif_triangle_options* options,
-                                           dif_triangle_report* report, double* fractions);
+                                           dif_triangle_report* report, double fractions[]);
 
 /* Built-in shapes; see shapes.hpp for their formulas. */
 enum {
@@ -534,12 +539,13 @@ DIF_API dif_status dif_shape_bounds(const dif_shape* shape, double low[3], doubl
 /* Volume inside, in closed form or to 1e-14. Since 0.1. */
 DIF_API dif_status dif_shape_volume(const dif_shape* shape, double* volume);
 /* Signed distances of points to the surface, < 0 inside. Errors: INVALID_ARGUMENT. Since 0.1. */
-DIF_API dif_status dif_shape_distances(const dif_shape* shape, int64_t count, const double* points,
-                                       double* distances);
-/* As dif_fractions_from_function(), of a shape. options->gradient must be NULL. Since 0.1. */
+DIF_API dif_status dif_shape_distances(const dif_shape* shape, int64_t count, const double points[],
+                                       double distances[]);
+/* As dif_fractions_from_function(), of a shape. options->gradient must be NULL; `report` may be
+ * NULL. Since 0.1. */
 DIF_API dif_status dif_fractions_from_shape(const dif_grid* grid, const dif_shape* shape,
                                             const dif_function_options* options,
-                                            dif_function_report* report, double* fractions);
+                                            dif_function_report* report, double fractions[]);
 
 /* Values of scanners and segmentations, which become fractions here. They are described by a dif_field
  * whose type may also be DIF_INT8, DIF_INT16, DIF_INT32, DIF_UINT32, DIF_INT64 or DIF_UINT64; its origin
@@ -549,11 +555,11 @@ enum { DIF_INT8 = 14, DIF_INT16 = 15, DIF_UINT64 = 16 };
 /* (value - empty) / (full - empty), values beyond counting as 0 or 1; `full` may be the smaller one. NaN
  * stays NaN. Errors: INVALID_ARGUMENT (the two are equal or not finite), INVALID_GRID, STRUCT. Since 0.1. */
 DIF_API dif_status dif_fractions_from_values(const dif_field* values, double empty, double full,
-                                             double* fractions);
+                                             double fractions[]);
 /* 255, that is 1, where a value is one of the labels, else 0. Exact for integers of all sizes.
  * Errors: INVALID_ARGUMENT (also for no labels), INVALID_GRID, STRUCT, OUT_OF_MEMORY. Since 0.1. */
 DIF_API dif_status dif_fractions_from_labels(const dif_field* values, int64_t count,
-                                             const int64_t* labels, uint8_t* fractions);
+                                             const int64_t labels[], uint8_t fractions[]);
 /* The lowest and the highest value; NaN takes no part, and both are NaN where there is nothing else.
  * A mask of 0 and 1 in DIF_UINT8 has the highest value 1, of 255 that dif_reconstruct() takes for full.
  * Errors: INVALID_ARGUMENT, INVALID_GRID, STRUCT. Since 0.1. */
@@ -577,7 +583,7 @@ DIF_API dif_status dif_mollify_options_init(dif_mollify_options* options, uint64
  * Errors: INVALID_ARGUMENT, INVALID_GRID, INVALID_VALUE (the cell that is NaN or infinite is named),
  * STRUCT, TOO_LARGE, OUT_OF_MEMORY, CANCELLED. Since 0.1. */
 DIF_API dif_status dif_mollify(const dif_field* field, const dif_mollify_options* options,
-                               double* values);
+                               double values[]);
 
 /* ============================== 6. Measuring and smoothing ==================================== */
 
@@ -681,13 +687,14 @@ DIF_API dif_status dif_curvature_options_init(dif_curvature_options* options, ui
 
 /* Curvatures at the vertices of a mesh, by parabolic patches fitted to their neighbours: the mean of
  * the principal ones, their product (Gaussian), the larger and the smaller. One number per vertex
- * each, NaN where too few neighbours determine no patch; any of the four may be NULL. In 1 / unit,
- * the Gaussian squared; positive where bodies are convex: 1/R for a ball.
+ * each, NaN where too few neighbours determine no patch; `mean`, `gaussian`, `largest` and
+ * `smallest` may be NULL. In 1 / unit, the Gaussian squared; positive where bodies are convex: 1/R
+ * for a ball.
  * Errors: INVALID_ARGUMENT (a position that is not finite is named), STRUCT, OUT_OF_MEMORY,
  * CANCELLED. Since 0.1. */
 DIF_API dif_status dif_mesh_curvature(const dif_mesh* mesh, const dif_curvature_options* options,
-                                      double* mean, double* gaussian, double* largest,
-                                      double* smallest);
+                                      double mean[], double gaussian[], double largest[],
+                                      double smallest[]);
 
 enum {
   DIF_SMOOTHING_DEFAULT = 0,    /* TAUBIN */
@@ -867,7 +874,8 @@ typedef struct dif_raw_layout {
 /* Type FLOAT64, offset 0, little endian; dims must be set. Errors: INVALID_ARGUMENT, STRUCT. Since
  * 0.1. */
 DIF_API dif_status dif_raw_layout_init(dif_raw_layout* layout, uint64_t struct_size);
-/* Reads .npy, .nrrd or .nhdr, told by the extension, or with a `layout` a raw file.
+/* Reads .npy, .nrrd or .nhdr, told by the extension, or with a layout a raw file; `layout` may be
+ * NULL.
  * Errors: INVALID_ARGUMENT, FILE_MISSING, FILE_FORMAT, TOO_LARGE, STRUCT, OUT_OF_MEMORY. Since 0.1. */
 DIF_API dif_status dif_field_read(const char* path, const dif_raw_layout* layout,
                                   dif_field_file** file);
@@ -890,8 +898,8 @@ typedef struct dif_field_read_options {
 /* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
 DIF_API dif_status dif_field_read_options_init(dif_field_read_options* options,
                                                uint64_t struct_size);
-/* dif_field_read() with options. Where integers become shares of the largest value, types but UINT8 and
- * UINT16 become FLOAT32 or FLOAT64. Errors: likewise. Since 0.1. */
+/* dif_field_read() with options; `layout` may be NULL. Where integers become shares of the largest
+ * value, types but UINT8 and UINT16 become FLOAT32 or FLOAT64. Errors: likewise. Since 0.1. */
 DIF_API dif_status dif_field_read_with(const char* path, const dif_raw_layout* layout,
                                        const dif_field_read_options* options,
                                        dif_field_file** file);
@@ -953,8 +961,8 @@ DIF_API dif_status dif_reconstruct_block(const dif_field* field, const dif_block
  * the whole field, bit for bit. Errors: INVALID_ARGUMENT (also for blocks that are not disjoint, such
  * as one given twice: both meshes have triangles between the same cells), TOO_LARGE, OUT_OF_MEMORY.
  * Since 0.1. */
-DIF_API dif_status dif_mesh_weld(const dif_mesh* const* meshes, int64_t count, const dif_grid* grid,
-                                 dif_mesh** mesh);
+DIF_API dif_status dif_mesh_weld(const dif_mesh* const meshes[], int64_t count,
+                                 const dif_grid* grid, dif_mesh** mesh);
 
 #ifdef __cplusplus
 }
