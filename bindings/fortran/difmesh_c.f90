@@ -1,12 +1,12 @@
-! The functions of difmesh.h as they are, for what the module difmesh does not cover. An absent
-! optional argument is NULL; text ends with c_null_char; see the header for all else.
+! Written by scripts/generate_bindings.py from difmesh.h; do not edit, run that again.
+! The functions of difmesh.h as they are, for what the module difmesh does not cover. An
+! absent optional argument is NULL; text ends with c_null_char; see the header for more.
 module difmesh_c
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int8_t, c_int32_t, &
     c_int64_t, c_ptr
   use difmesh_types
   implicit none
-  private :: c_char, c_double, c_funptr, c_int8_t, c_int32_t, &
-    c_int64_t, c_ptr
+  private :: c_char, c_double, c_funptr, c_int8_t, c_int32_t, c_int64_t, c_ptr
 
   interface
     type(c_ptr) function dif_status_name(status) bind(c)
@@ -146,7 +146,8 @@ module difmesh_c
       import :: c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: mesh
       integer(c_int32_t), value :: type
-      integer(c_int64_t), value :: stride, capacity
+      integer(c_int64_t), value :: stride
+      integer(c_int64_t), value :: capacity
       type(c_ptr), value :: out
     end function
 
@@ -154,7 +155,8 @@ module difmesh_c
       import :: c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: mesh
       integer(c_int32_t), value :: type
-      integer(c_int64_t), value :: stride, capacity
+      integer(c_int64_t), value :: stride
+      integer(c_int64_t), value :: capacity
       type(c_ptr), value :: out
     end function
 
@@ -163,7 +165,9 @@ module difmesh_c
       import :: c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: mesh
       integer(c_int32_t), value :: type
-      integer(c_int64_t), value :: first_vertex, stride, capacity
+      integer(c_int64_t), value :: first_vertex
+      integer(c_int64_t), value :: stride
+      integer(c_int64_t), value :: capacity
       type(c_ptr), value :: out
     end function
 
@@ -172,7 +176,8 @@ module difmesh_c
       import :: c_double, c_int32_t, c_int64_t
       real(c_double), intent(in) :: spacing(3)
       integer(c_int64_t), value :: count
-      real(c_double), intent(in) :: normals(*), offsets(*)
+      real(c_double), intent(in) :: normals(*)
+      real(c_double), intent(in) :: offsets(*)
       real(c_double), intent(inout) :: fractions(*)
     end function
 
@@ -181,7 +186,8 @@ module difmesh_c
       import :: c_double, c_int32_t, c_int64_t
       real(c_double), intent(in) :: spacing(3)
       integer(c_int64_t), value :: count
-      real(c_double), intent(in) :: normals(*), fractions(*)
+      real(c_double), intent(in) :: normals(*)
+      real(c_double), intent(in) :: fractions(*)
       real(c_double), intent(inout) :: offsets(*)
     end function
 
@@ -192,7 +198,8 @@ module difmesh_c
       type(dif_options), intent(in), optional :: options
       integer(c_int64_t), value :: count
       integer(c_int64_t), intent(in) :: cells(*)
-      real(c_double), intent(inout), optional :: normals(*), offsets(*)
+      real(c_double), intent(inout), optional :: normals(*)
+      real(c_double), intent(inout), optional :: offsets(*)
       integer(c_int32_t), intent(inout), optional :: sources(*)
     end function
 
@@ -230,8 +237,8 @@ module difmesh_c
 
     integer(c_int32_t) function dif_fractions_from_function(grid, f, user, options, report, &
         fractions) bind(c)
-      import :: c_double, c_funptr, c_int32_t, c_ptr, dif_function_options, &
-        dif_function_report, dif_grid
+      import :: c_double, c_funptr, c_int32_t, c_ptr, dif_function_options, dif_function_report, &
+        dif_grid
       type(dif_grid), intent(in) :: grid
       type(c_funptr), value :: f
       type(c_ptr), value :: user
@@ -270,7 +277,7 @@ module difmesh_c
 
     integer(c_int32_t) function dif_shape_create(options, shape) bind(c)
       import :: c_int32_t, c_ptr, dif_shape_options
-      type(dif_shape_options), intent(in) :: options
+      type(dif_shape_options), intent(in), optional :: options
       type(c_ptr), intent(inout) :: shape
     end function
 
@@ -282,7 +289,8 @@ module difmesh_c
     integer(c_int32_t) function dif_shape_bounds(shape, low, high) bind(c)
       import :: c_double, c_int32_t, c_ptr
       type(c_ptr), value :: shape
-      real(c_double), intent(inout) :: low(3), high(3)
+      real(c_double), intent(inout) :: low(3)
+      real(c_double), intent(inout) :: high(3)
     end function
 
     integer(c_int32_t) function dif_shape_volume(shape, volume) bind(c)
@@ -307,56 +315,6 @@ module difmesh_c
       type(dif_function_options), intent(in), optional :: options
       type(dif_function_report), intent(inout), optional :: report
       real(c_double), intent(inout) :: fractions(*)
-    end function
-
-    integer(c_int32_t) function dif_measure_init(measure, struct_size) bind(c)
-      import :: c_int32_t, c_int64_t, dif_measure
-      type(dif_measure), intent(inout) :: measure
-      integer(c_int64_t), value :: struct_size
-    end function
-
-    integer(c_int32_t) function dif_mesh_measure(mesh, measure) bind(c)
-      import :: c_int32_t, c_ptr, dif_measure
-      type(c_ptr), value :: mesh
-      type(dif_measure), intent(inout) :: measure
-    end function
-
-    integer(c_int32_t) function dif_distance_options_init(options, struct_size) bind(c)
-      import :: c_int32_t, c_int64_t, dif_distance_options
-      type(dif_distance_options), intent(inout) :: options
-      integer(c_int64_t), value :: struct_size
-    end function
-
-    integer(c_int32_t) function dif_distance_init(distance, struct_size) bind(c)
-      import :: c_int32_t, c_int64_t, dif_distance
-      type(dif_distance), intent(inout) :: distance
-      integer(c_int64_t), value :: struct_size
-    end function
-
-    integer(c_int32_t) function dif_distance_to_shape(mesh, shape, options, distance) bind(c)
-      import :: c_int32_t, c_ptr, dif_distance, dif_distance_options
-      type(c_ptr), value :: mesh, shape
-      type(dif_distance_options), intent(in), optional :: options
-      type(dif_distance), intent(inout) :: distance
-    end function
-
-    integer(c_int32_t) function dif_distance_to_function(mesh, function, user, options, &
-        distance) bind(c)
-      import :: c_funptr, c_int32_t, c_ptr, dif_distance, dif_distance_options
-      type(c_ptr), value :: mesh
-      type(c_funptr), value :: function
-      type(c_ptr), value :: user
-      type(dif_distance_options), intent(in), optional :: options
-      type(dif_distance), intent(inout) :: distance
-    end function
-
-    integer(c_int32_t) function dif_distance_to_mesh(mesh, reference, options, distance, &
-        back) bind(c)
-      import :: c_int32_t, c_ptr, dif_distance, dif_distance_options
-      type(c_ptr), value :: mesh, reference
-      type(dif_distance_options), intent(in), optional :: options
-      type(dif_distance), intent(inout) :: distance
-      type(dif_distance), intent(inout), optional :: back
     end function
 
     integer(c_int32_t) function dif_fractions_from_values(values, empty, full, fractions) bind(c)
@@ -395,6 +353,58 @@ module difmesh_c
       real(c_double), intent(inout) :: values(*)
     end function
 
+    integer(c_int32_t) function dif_measure_init(measure, struct_size) bind(c)
+      import :: c_int32_t, c_int64_t, dif_measure
+      type(dif_measure), intent(inout) :: measure
+      integer(c_int64_t), value :: struct_size
+    end function
+
+    integer(c_int32_t) function dif_mesh_measure(mesh, measure) bind(c)
+      import :: c_int32_t, c_ptr, dif_measure
+      type(c_ptr), value :: mesh
+      type(dif_measure), intent(inout) :: measure
+    end function
+
+    integer(c_int32_t) function dif_distance_options_init(options, struct_size) bind(c)
+      import :: c_int32_t, c_int64_t, dif_distance_options
+      type(dif_distance_options), intent(inout) :: options
+      integer(c_int64_t), value :: struct_size
+    end function
+
+    integer(c_int32_t) function dif_distance_init(distance, struct_size) bind(c)
+      import :: c_int32_t, c_int64_t, dif_distance
+      type(dif_distance), intent(inout) :: distance
+      integer(c_int64_t), value :: struct_size
+    end function
+
+    integer(c_int32_t) function dif_distance_to_shape(mesh, shape, options, distance) bind(c)
+      import :: c_int32_t, c_ptr, dif_distance, dif_distance_options
+      type(c_ptr), value :: mesh
+      type(c_ptr), value :: shape
+      type(dif_distance_options), intent(in), optional :: options
+      type(dif_distance), intent(inout) :: distance
+    end function
+
+    integer(c_int32_t) function dif_distance_to_function(mesh, function, user, options, &
+        distance) bind(c)
+      import :: c_funptr, c_int32_t, c_ptr, dif_distance, dif_distance_options
+      type(c_ptr), value :: mesh
+      type(c_funptr), value :: function
+      type(c_ptr), value :: user
+      type(dif_distance_options), intent(in), optional :: options
+      type(dif_distance), intent(inout) :: distance
+    end function
+
+    integer(c_int32_t) function dif_distance_to_mesh(mesh, reference, options, distance, &
+        back) bind(c)
+      import :: c_int32_t, c_ptr, dif_distance, dif_distance_options
+      type(c_ptr), value :: mesh
+      type(c_ptr), value :: reference
+      type(dif_distance_options), intent(in), optional :: options
+      type(dif_distance), intent(inout) :: distance
+      type(dif_distance), intent(inout), optional :: back
+    end function
+
     integer(c_int32_t) function dif_curvature_options_init(options, struct_size) bind(c)
       import :: c_int32_t, c_int64_t, dif_curvature_options
       type(dif_curvature_options), intent(inout) :: options
@@ -402,7 +412,7 @@ module difmesh_c
     end function
 
     integer(c_int32_t) function dif_mesh_curvature(mesh, options, mean, gaussian, largest, &
-      smallest) bind(c)
+        smallest) bind(c)
       import :: c_double, c_int32_t, c_ptr, dif_curvature_options
       type(c_ptr), value :: mesh
       type(dif_curvature_options), intent(in), optional :: options

@@ -1,5 +1,6 @@
-! Constants and structs of difmesh.h, where their fields are described. A struct that dif_init did
-! not prepare has struct_size 0, which the library refuses.
+! Written by scripts/generate_bindings.py from difmesh.h; do not edit, run that again.
+! Constants and structs of difmesh.h, where their fields are described. A struct that
+! dif_init did not prepare has struct_size 0, which the library refuses.
 module difmesh_types
   use, intrinsic :: iso_c_binding, only: c_double, c_funptr, c_int32_t, c_int64_t, c_null_funptr, &
     c_null_ptr, c_ptr
@@ -58,18 +59,9 @@ module difmesh_types
     dif_side_full = 5
 
   integer(c_int32_t), parameter, public :: &
-    dif_overlaps_default = 0, &
-    dif_overlaps_union = 1, &
-    dif_overlaps_refuse = 2, &
-    dif_overlaps_count = 3
-
-  integer(c_int32_t), parameter, public :: &
     dif_int32 = 11, &
     dif_uint32 = 12, &
-    dif_int64 = 13, &
-    dif_int8 = 14, &
-    dif_int16 = 15, &
-    dif_uint64 = 16
+    dif_int64 = 13
 
   integer(c_int32_t), parameter, public :: &
     dif_source_none = 0, &
@@ -79,12 +71,23 @@ module difmesh_types
     dif_source_least_squares = 4
 
   integer(c_int32_t), parameter, public :: &
+    dif_overlaps_default = 0, &
+    dif_overlaps_union = 1, &
+    dif_overlaps_refuse = 2, &
+    dif_overlaps_count = 3
+
+  integer(c_int32_t), parameter, public :: &
     dif_shape_sphere = 1, &
     dif_shape_ellipsoid = 2, &
     dif_shape_torus = 3, &
     dif_shape_genus = 4, &
     dif_shape_smooth_box = 5, &
     dif_shape_golf_ball = 6
+
+  integer(c_int32_t), parameter, public :: &
+    dif_int8 = 14, &
+    dif_int16 = 15, &
+    dif_uint64 = 16
 
   integer(c_int32_t), parameter, public :: &
     dif_smoothing_default = 0, &
@@ -127,8 +130,12 @@ module difmesh_types
     dif_field_format_by_extension = 0, &
     dif_field_format_npy = 1, &
     dif_field_format_nrrd = 2
-  ! Ghost cells that a block needs beyond each face, as far as the domain reaches.
-  integer(c_int64_t), parameter, public :: dif_ghost_layers = 5
+
+  integer(c_int64_t), parameter, public :: &
+    dif_version_major = 0, &
+    dif_version_minor = 1, &
+    dif_version_patch = 0, &
+    dif_ghost_layers = 5
 
   type, bind(c), public :: dif_field
     integer(c_int64_t) :: struct_size = 0
@@ -275,6 +282,16 @@ module difmesh_types
     real(c_double) :: dimple_depth = 0
   end type
 
+  type, bind(c), public :: dif_mollify_options
+    integer(c_int64_t) :: struct_size = 0
+    real(c_double) :: radius = 0
+    integer(c_int32_t) :: sides(6) = 0
+    integer(c_int32_t) :: threads = 0
+    integer(c_int32_t) :: reserved = 0
+    type(c_funptr) :: progress = c_null_funptr
+    type(c_ptr) :: progress_user = c_null_ptr
+  end type
+
   type, bind(c), public :: dif_measure
     integer(c_int64_t) :: struct_size = 0
     integer(c_int64_t) :: vertices = 0
@@ -330,16 +347,6 @@ module difmesh_types
     integer(c_int32_t) :: reserved = 0
   end type
 
-  type, bind(c), public :: dif_mollify_options
-    integer(c_int64_t) :: struct_size = 0
-    real(c_double) :: radius = 0
-    integer(c_int32_t) :: sides(6) = 0
-    integer(c_int32_t) :: threads = 0
-    integer(c_int32_t) :: reserved = 0
-    type(c_funptr) :: progress = c_null_funptr
-    type(c_ptr) :: progress_user = c_null_ptr
-  end type
-
   type, bind(c), public :: dif_curvature_options
     integer(c_int64_t) :: struct_size = 0
     integer(c_int32_t) :: rings = 0
@@ -379,7 +386,7 @@ module difmesh_types
     integer(c_int32_t) :: normal_bits = 0
     integer(c_int32_t) :: generic_bits = 0
     integer(c_int32_t) :: colour_map = 0
-    type(c_ptr) :: colour_by = c_null_ptr  ! easier: mesh%write(..., colour_by=...)
+    type(c_ptr) :: colour_by = c_null_ptr
     real(c_double) :: colour_range(2) = 0
     real(c_double) :: cell_size = 0
     real(c_double) :: metres_per_unit = 0
@@ -387,7 +394,7 @@ module difmesh_types
     integer(c_int32_t) :: has_local_origin = 0
     integer(c_int32_t) :: up = 0
     integer(c_int64_t) :: most_vertices = 0
-    type(c_ptr) :: name = c_null_ptr  ! likewise
+    type(c_ptr) :: name = c_null_ptr
   end type
 
   type, bind(c), public :: dif_mesh_write_report
@@ -447,13 +454,29 @@ module difmesh_types
     integer(c_int64_t) :: ghost_high(3) = 0
   end type
 
-  ! What options%progress = c_funloc(...) has to be.
+  ! What procedures have to be whose c_funloc() the library gets.
   abstract interface
     integer(c_int32_t) function dif_progress(user, share_done) bind(c)
       import :: c_double, c_int32_t, c_ptr
       type(c_ptr), value :: user
       real(c_double), value :: share_done
     end function
+
+    integer(c_int32_t) function dif_function(user, count, points, values) bind(c)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: user
+      integer(c_int64_t), value :: count
+      real(c_double), intent(in) :: points(*)
+      real(c_double), intent(inout) :: values(*)
+    end function
+
+    integer(c_int32_t) function dif_gradient(user, count, points, gradients) bind(c)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: user
+      integer(c_int64_t), value :: count
+      real(c_double), intent(in) :: points(*)
+      real(c_double), intent(inout) :: gradients(*)
+    end function
   end interface
-  public :: dif_progress
+  public :: dif_progress, dif_function, dif_gradient
 end module

@@ -43,6 +43,12 @@ def constants():
     return found
 
 
+def macros():
+    """Name of each #define of a number to its value."""
+    found = re.findall(r"^#define (DIF_\w+) (\d+)$", HEADER.read_text(), flags=re.MULTILINE)
+    return {name: int(value) for name, value in found}
+
+
 def layout():
     """Name of each struct to its size and the offset and size of each field, as the C compiler
     has them; None without a C compiler."""

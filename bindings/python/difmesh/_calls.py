@@ -13,12 +13,14 @@ import numpy as np
 
 from ._errors import check
 from ._memory import from_address
-from ._structs import FUNCTION, NO_PROGRESS, PROGRESS
+from ._structs import DifFunction, DifGradient, DifProgress
 
 #: What a user may be told of the share done: return False to cancel.
 Progress = Optional[Callable[[float], object]]
 #: Points (n, 3) to n numbers, or to n vectors (n, 3).
 Function = Callable[[Any], Any]
+
+_NO_PROGRESS = DifProgress(0)
 
 #: Those whose handlers may well raise.
 _SIGNALS = [
@@ -109,13 +111,13 @@ class Relay:
         # Signals arrive in the main thread only; elsewhere nobody would have use for a callback.
         wanted = progress is not None or in_main_thread()
         #: for the options' `progress`
-        self.progress = PROGRESS(self._on_progress) if wanted else NO_PROGRESS
+        self.progress = DifProgress(self._on_progress) if wanted else _NO_PROGRESS
 
     def call(self, function: Callable[..., int], *arguments: Any) -> None:
         """Calls a function of the library and raises what went wrong."""
         with self._signals:
             status = function(*arguments)
-        self.progress = NO_PROGRESS  # the other one refers back to this object
+        self.progress = _NO_PROGRESS  # the other one refers back to this object
         error, self._error = self._error, None
         if error is not None:
             try:
@@ -141,7 +143,8 @@ class Relay:
                 )
             from_address(values, shape, "f8", writeable=True)[...] = given
 
-        return FUNCTION(lambda _, *arguments: self._guarded(evaluate, *arguments))
+        kind = DifGradient if vectors else DifFunction
+        return kind(lambda _, *arguments: self._guarded(evaluate, *arguments))
 
     def _on_progress(self, _: int, share_done: float) -> int:
         return self._guarded(self._tell, share_done)

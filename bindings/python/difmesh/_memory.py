@@ -8,8 +8,7 @@ from typing import Any, Sequence, Union
 import numpy as np
 import numpy.typing as npt
 
-from ._field import Field
-from ._structs import (
+from ._constants import (
     FLOAT32,
     FLOAT64,
     INT8,
@@ -20,9 +19,9 @@ from ._structs import (
     UINT16,
     UINT32,
     UINT64,
-    DifField,
-    DifGrid,
 )
+from ._field import Field
+from ._structs import DifField, DifGrid
 
 #: One number for all three axes, or three for x, y and z.
 Triple = Union[float, Sequence[float], npt.NDArray[Any]]

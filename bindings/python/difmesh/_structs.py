@@ -1,34 +1,17 @@
-"""The structs of difmesh.h, field by field in its order; see there for what they mean."""
+"""The structs of difmesh.h, field by field in its order; see there for what they mean.
+
+Written by scripts/generate_bindings.py from difmesh.h; do not edit, run that again.
+"""
 
 from __future__ import annotations
 
-from ctypes import (
-    CFUNCTYPE,
-    Structure,
-    c_char_p,
-    c_double,
-    c_int32,
-    c_int64,
-    c_uint64,
-    c_void_p,
-    sizeof,
-)
-from typing import Any
+from ctypes import CFUNCTYPE, Structure, c_char_p, c_double, c_int32, c_int64, c_uint64, c_void_p
 
-PROGRESS = CFUNCTYPE(c_int32, c_void_p, c_double)
-NO_PROGRESS = PROGRESS(0)
-#: dif_function and dif_gradient alike
-FUNCTION = CFUNCTYPE(c_int32, c_void_p, c_int64, c_void_p, c_void_p)
+from ._sized import Sized
 
-FLOAT32, FLOAT64, UINT8, UINT16 = 1, 2, 3, 4
-INT32, UINT32, INT64, INT8, INT16, UINT64 = 11, 12, 13, 14, 15, 16
-
-
-class Sized(Structure):
-    """A struct that begins with its size, which it sets itself."""
-
-    def __init__(self, **fields: Any) -> None:
-        super().__init__(struct_size=sizeof(type(self)), **fields)
+DifProgress = CFUNCTYPE(c_int32, c_void_p, c_double)
+DifFunction = CFUNCTYPE(c_int32, c_void_p, c_int64, c_void_p, c_void_p)
+DifGradient = CFUNCTYPE(c_int32, c_void_p, c_int64, c_void_p, c_void_p)
 
 
 class DifField(Sized):
@@ -57,7 +40,7 @@ class DifOptions(Sized):
         ("clearance", c_double),
         ("threads", c_int32),
         ("reserved", c_int32),
-        ("progress", PROGRESS),
+        ("progress", DifProgress),
         ("progress_user", c_void_p),
     ]
 
@@ -116,11 +99,11 @@ class DifFunctionOptions(Sized):
         ("tolerance", c_double),
         ("kink_tolerance", c_double),
         ("max_calls_per_cell", c_int64),
-        ("gradient", FUNCTION),
+        ("gradient", DifGradient),
         ("gradient_user", c_void_p),
         ("threads", c_int32),
         ("reserved", c_int32),
-        ("progress", PROGRESS),
+        ("progress", DifProgress),
         ("progress_user", c_void_p),
     ]
 
@@ -149,7 +132,7 @@ class DifTriangleOptions(Sized):
         ("check_edges", c_int32),
         ("threads", c_int32),
         ("reserved", c_int32),
-        ("progress", PROGRESS),
+        ("progress", DifProgress),
         ("progress_user", c_void_p),
         ("overlaps", c_int32),
         ("reserved_2", c_int32),
@@ -196,6 +179,18 @@ class DifShapeOptions(Sized):
     ]
 
 
+class DifMollifyOptions(Sized):
+    _fields_ = [
+        ("struct_size", c_uint64),
+        ("radius", c_double),
+        ("sides", c_int32 * 6),
+        ("threads", c_int32),
+        ("reserved", c_int32),
+        ("progress", DifProgress),
+        ("progress_user", c_void_p),
+    ]
+
+
 class DifMeasure(Sized):
     _fields_ = [
         ("struct_size", c_uint64),
@@ -228,7 +223,7 @@ class DifDistanceOptions(Sized):
         ("facet_spacing", c_double),
         ("with_sign", c_int32),
         ("threads", c_int32),
-        ("progress", PROGRESS),
+        ("progress", DifProgress),
         ("progress_user", c_void_p),
     ]
 
@@ -259,24 +254,12 @@ class DifDistance(Sized):
     ]
 
 
-class DifMollifyOptions(Sized):
-    _fields_ = [
-        ("struct_size", c_uint64),
-        ("radius", c_double),
-        ("sides", c_int32 * 6),
-        ("threads", c_int32),
-        ("reserved", c_int32),
-        ("progress", PROGRESS),
-        ("progress_user", c_void_p),
-    ]
-
-
 class DifCurvatureOptions(Sized):
     _fields_ = [
         ("struct_size", c_uint64),
         ("rings", c_int32),
         ("threads", c_int32),
-        ("progress", PROGRESS),
+        ("progress", DifProgress),
         ("progress_user", c_void_p),
     ]
 
@@ -295,7 +278,7 @@ class DifSmoothingOptions(Sized):
         ("residual", c_double),
         ("tolerance", c_double),
         ("clearance", c_double),
-        ("progress", PROGRESS),
+        ("progress", DifProgress),
         ("progress_user", c_void_p),
     ]
 

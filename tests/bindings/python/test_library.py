@@ -15,7 +15,7 @@ import numpy as np
 from support import SANITIZED, smooth_ball
 
 import difmesh
-from difmesh import _errors, _library, _structs
+from difmesh import _constants, _errors, _library, _prototypes, _structs
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 import header
@@ -46,15 +46,16 @@ class Interface(unittest.TestCase):
                 descriptor = getattr(struct, field)
                 self.assertEqual((descriptor.offset, descriptor.size), place, f"{name}.{field}")
 
-    def test_functions_have_the_headers_numbers_of_parameters(self):
+    def test_functions_have_the_headers_parameters(self):
         declared = header.functions()
-        arguments = dict(_library._ARGUMENTS)
-        arguments.update({name: given for name, (_, given) in _library._OTHERS.items()})
-        self.assertLess(len(declared) - len(arguments), 16)
-        for name, given in arguments.items():
+        self.assertEqual(set(_prototypes.FUNCTIONS), set(declared))
+        results = {"dif_status": ctypes.c_int32, "int32_t": ctypes.c_int32, "void": None,
+                   "const char*": ctypes.c_char_p}
+        for name, (kind, given) in _prototypes.FUNCTIONS.items():
             result, parameters = declared[name]
             self.assertEqual(len(given), len(parameters), name)
-            self.assertEqual(name in _library._ARGUMENTS, result == "dif_status", name)
+            self.assertIs(kind, results[result], name)
+            self.assertEqual(getattr(_library.library, name).argtypes, given, name)
             for kind, parameter in zip(given, parameters):
                 pointer = "*" in parameter or "[" in parameter or re.search(
                     r"dif_(function|gradient)\b", parameter)
@@ -68,6 +69,12 @@ class Interface(unittest.TestCase):
 
     def test_constants(self):
         constants = header.constants()
+        numbers = {
+            "DIF_" + name: value
+            for name, value in vars(_constants).items()
+            if isinstance(value, int)
+        }
+        self.assertEqual(numbers, {**constants, **header.macros()})
         for status, kind in _errors._TYPES.items():
             self.assertIn(status, constants.values())
             words = re.sub(r"(?<!^)([A-Z])", r"_\1", kind.__name__.removesuffix("Error")).upper()
