@@ -32,6 +32,7 @@ from ._files import read_field, write_field
 from ._fractions import Shape, sample_function, sample_mesh, sample_shape
 from ._mesh import Measure, Mesh, Report, WriteReport, read_mesh
 from ._options import choice as _choice
+from ._options import choices as _choices
 from ._planes import Planes, cell_planes, normals, plane_fraction, plane_offset
 from ._reconstruct import GHOST_LAYERS, reconstruct, reconstruct_block, weld
 from ._smoothing import Curvature, curvature, mollify, smooth
@@ -90,7 +91,7 @@ __all__ = [
 ]
 
 
-_PARTS = {"threads": 1, "files": 2, "distance": 3, "gltf": 4, "draco": 5}
+_PARTS = _choices("PART_")
 
 
 def library_version() -> str:

@@ -6,6 +6,7 @@ import warnings
 from ctypes import byref, c_char_p, c_void_p
 from typing import Any
 
+from . import _constants as c
 from ._library import library
 
 
@@ -76,22 +77,22 @@ class Warning(UserWarning):
 
 
 _TYPES: dict[int, type[Error]] = {
-    10: InvalidArgumentError,
-    11: InvalidGridError,
-    12: InvalidValueError,
-    20: TooLargeError,
-    21: OutOfMemoryError,
-    30: CancelledError,
-    40: FileMissingError,
-    41: FileFormatError,
-    42: FileWriteError,
-    50: UnsupportedError,
+    c.ERROR_INVALID_ARGUMENT: InvalidArgumentError,
+    c.ERROR_INVALID_GRID: InvalidGridError,
+    c.ERROR_INVALID_VALUE: InvalidValueError,
+    c.ERROR_TOO_LARGE: TooLargeError,
+    c.ERROR_OUT_OF_MEMORY: OutOfMemoryError,
+    c.ERROR_CANCELLED: CancelledError,
+    c.ERROR_FILE_MISSING: FileMissingError,
+    c.ERROR_FILE_FORMAT: FileFormatError,
+    c.ERROR_FILE_WRITE: FileWriteError,
+    c.ERROR_UNSUPPORTED: UnsupportedError,
 }
 
 
 def check(status: int) -> None:
     """Raises what the status of the call before, on this thread, stands for."""
-    if status != 0:
+    if status != c.OK:
         message: bytes = library.dif_last_message()
         raise _TYPES.get(status, Error)(message.decode(errors="replace"), status)
 

@@ -24,11 +24,11 @@ from ._memory import (
     path_bytes,
     triple,
 )
-from ._options import choice, int32
+from ._options import choice, choices, int32
 from ._structs import DifField, DifFieldReadOptions, DifFieldWriteOptions, DifRawLayout
 from ._values import Labels, label_array
 
-_FORMATS = {"npy": 1, "nrrd": 2}
+_FORMATS = choices("FIELD_FORMAT_")
 _DTYPES: dict[int, np.dtype[Any]] = {number: dtype for dtype, number in TYPES.items()}
 
 

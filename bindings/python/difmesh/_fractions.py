@@ -14,7 +14,7 @@ from ._field import Field, FunctionReport, TriangleReport
 from ._library import defaults, library
 from ._memory import Triple, address_of, floats, grid_struct, triple
 from ._mesh import Mesh, to_dataclass, triples
-from ._options import choice, int32
+from ._options import choice, choices, int32
 from ._structs import (
     DifFunctionOptions,
     DifFunctionReport,
@@ -26,16 +26,8 @@ from ._structs import (
 
 Dims = Union[int, Sequence[int], npt.NDArray[Any]]
 
-_OVERLAPS = {"union": 1, "refuse": 2, "count": 3}
-
-_SHAPES = {
-    "sphere": 1,
-    "ellipsoid": 2,
-    "torus": 3,
-    "genus": 4,
-    "smooth_box": 5,
-    "golf_ball": 6,
-}
+_OVERLAPS = choices("OVERLAPS_")
+_SHAPES = choices("SHAPE_")
 
 
 class Shape:

@@ -5,13 +5,30 @@ from __future__ import annotations
 import operator
 from typing import Any, Sequence
 
+from . import _constants
 from ._calls import Relay
 from ._library import defaults
 from ._structs import DifOptions
 
-_PLACEMENTS = {"midpoint": 1, "linear": 2, "manson": 3, "plic": 4}
-_NORMALS = {"youngs": 1, "myc": 2, "height_function": 3, "elvira": 4, "lvira": 5}
-_SIDES = {"open": 1, "mirror": 2, "periodic": 3, "empty": 4, "full": 5}
+
+def choices(prefix: str) -> dict[str, int]:
+    """The names of an enumeration of difmesh.h, "plic" for PLACEMENT_PLIC, and their numbers.
+
+    Without that of 0, which leaves the choice to the library and here is not asking for any.
+    """
+    names = {
+        name[len(prefix) :].lower(): value
+        for name, value in vars(_constants).items()
+        if name.startswith(prefix) and value != 0
+    }
+    if not names:
+        raise ValueError(f"difmesh.h has no enumeration DIF_{prefix}...")
+    return names
+
+
+_PLACEMENTS = choices("PLACEMENT_")
+_NORMALS = choices("NORMALS_")
+_SIDES = choices("SIDE_")
 
 
 def to_options(relay: Relay, sides: str | Sequence[str], **given: Any) -> DifOptions:

@@ -7,6 +7,7 @@ from typing import Any, Optional, Sequence, Union
 
 import numpy.typing as npt
 
+from . import _constants
 from ._calls import Progress, Relay
 from ._errors import check
 from ._library import library
@@ -17,7 +18,7 @@ from ._structs import DifBlock
 from ._values import Labels, taken_as_asked, warn_of_small_values
 
 #: Ghost cells that a block needs beyond each face, as far as the domain reaches.
-GHOST_LAYERS = 5
+GHOST_LAYERS = _constants.GHOST_LAYERS
 
 
 def reconstruct(

@@ -14,11 +14,11 @@ from ._field import Field
 from ._library import defaults, library
 from ._memory import Triple, address_of, field_struct, floats, grid_struct
 from ._mesh import Mesh, new_mesh_handle
-from ._options import choice, int32, six_sides
+from ._options import choice, choices, int32, six_sides
 from ._structs import DifCurvatureOptions, DifMollifyOptions, DifSmoothingOptions
 
-_KINDS = {"laplacian": 1, "taubin": 2, "flow": 3, "constrained": 4}
-_BOUNDARIES = {"stay": 1, "along": 2}
+_KINDS = choices("SMOOTHING_")
+_BOUNDARIES = choices("BOUNDARY_")
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,13 +6,13 @@ from typing import Any, Optional, Sequence, Union
 
 from ._library import defaults
 from ._memory import triple
-from ._options import choice, int32
+from ._options import choice, choices, int32
 from ._structs import DifMeshWriteOptions
 
-_FORMATS = {"ply": 1, "obj": 2, "off": 3, "stl": 4, "glb": 5, "gltf": 6, "drc": 7}
-_DRACO_METHODS = {"edgebreaker": 1, "sequential": 2}
-_COLOUR_MAPS = {"viridis": 1, "cool_warm": 2}
-_UP_AXES = {"y": 1, "z": 2}
+_FORMATS = choices("MESH_FORMAT_")
+_DRACO_METHODS = choices("DRACO_")
+_COLOUR_MAPS = choices("COLOUR_MAP_")
+_UP_AXES = choices("UP_")
 _CHOICES = {
     "format": ("format", _FORMATS),
     "draco_method": ("draco_method", _DRACO_METHODS),
