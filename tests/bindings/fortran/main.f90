@@ -1,6 +1,7 @@
 program bindings_fortran_test
   use expect_module, only: failures
   use fields_test
+  use header_test
   use meshes_test
   implicit none
   call test_views()
@@ -20,6 +21,7 @@ program bindings_fortran_test
   call test_warnings()
   call test_distance()
   call test_smoothing()
+  call test_header()
   if (failures > 0) error stop 'some expectations failed'
   print '(a)', 'all expectations hold'
 end program
