@@ -280,8 +280,11 @@ class BeyondFiller {
   };
   [[nodiscard]] End end_at(std::int64_t i) const {
     const std::int64_t cell = cell_of(0, i);
+    if (!is_cell(cell)) {
+      return {i, 0};
+    }
     const std::int64_t from = cell - field_.block.offset[0] + 1;
-    return {i, is_cell(cell) && is_own(0, from) ? from : 0};
+    return {i, is_own(0, from) ? from : 0};
   }
   void set_end(const End& end, std::int64_t j, std::int64_t k) {
     if (end.repeated > 0 && is_own(1, j) && is_own(2, k)) {
