@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-#include "difmesh/io/gltf_file.hpp"
+#include "difmesh/io/glb.hpp"
 #include "difmesh/reconstruct.hpp"
 #include "fields.hpp"
 
@@ -79,7 +79,7 @@ void draco_alone(benchmark::State& state) {
   set_counters(state, bytes);
 }
 
-void glb(benchmark::State& state, const WriteGltfOptions& options) {
+void glb(benchmark::State& state, const WriteMeshOptions& options) {
   MeshFileReport report;
   for (auto _ : state) {
     benchmark::DoNotOptimize(encode_glb(surface(), options, &report));
@@ -89,7 +89,7 @@ void glb(benchmark::State& state, const WriteGltfOptions& options) {
   state.counters["error"] = report.position_error;
 }
 
-WriteGltfOptions compressed(int bits, DracoMethod method, bool normals) {
+WriteMeshOptions compressed(int bits, DracoMethod method, bool normals) {
   return {.normals = normals,
           .draco = DracoOptions{
               .position_bits = bits, .cell_size = 1.0, .speed = kSpeed, .method = method}};
@@ -101,7 +101,7 @@ constexpr auto kSequential = DracoMethod::sequential;
 BENCHMARK(draco_alone)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(glb, draco, compressed(kBits, kEdgebreaker, false))
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(glb, plain, WriteGltfOptions{})->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(glb, plain, WriteMeshOptions{})->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(glb, draco_11_bits, compressed(11, kEdgebreaker, true))
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(glb, draco_14_bits, compressed(14, kEdgebreaker, true))

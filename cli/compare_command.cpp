@@ -14,6 +14,7 @@
 #include "json.hpp"
 #include "long_call.hpp"
 #include "mesh_facts.hpp"
+#include "names.hpp"
 #include "output_file.hpp"
 #include "parse.hpp"
 #include "reference_input.hpp"
@@ -235,8 +236,7 @@ void add_compare_command(CLI::App& program) {
   CLI::App& command = *program.add_subcommand("compare", kDescription);
   command.footer(kFooter);
   command
-      .add_option("MESH", request->mesh_path,
-                  "Mesh to measure (.ply, .obj, .off, .stl, .glb, .gltf, .drc)")
+      .add_option("MESH", request->mesh_path, "Mesh to measure (" + mesh_extensions_text() + ")")
       ->required();
   command
       .add_option("--json", request->json_path,

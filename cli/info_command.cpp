@@ -202,10 +202,10 @@ Kind kind_of(const FieldInput& input) {
   if (input.is_raw() || has_extension(input.path, kFieldExtensions)) {
     return Kind::field;
   }
-  if (!has_extension(input.path, kMeshExtensions)) {
+  if (!is_mesh_file(input.path)) {
     throw Error(ErrorCode::file_format,
                 "'" + input.path + "': unknown extension; fields are " + joined(kFieldExtensions) +
-                    " or, with --raw-dims, raw; meshes are " + joined(kMeshExtensions));
+                    " or, with --raw-dims, raw; meshes are " + mesh_extensions_text());
   }
   if (input.origin || input.spacing) {
     throw CLI::ValidationError(input.origin ? "--origin" : "--spacing",
@@ -243,8 +243,8 @@ void run(const Request& request) {
             : print_field(std::cout, request, field, facts);
     return;
   }
-  const auto [mesh, scalars, warnings] =
-      read_scalar_mesh(request.input.path, {.outside_files = request.input.allow_outside});
+  const auto [mesh, warnings] =
+      read_mesh_file(request.input.path, {.outside_files = request.input.allow_outside});
   warn_all(warnings);
   const Measure facts = measure(mesh);
   const std::optional<double> roughness = roughness_degrees(mesh);
@@ -259,9 +259,8 @@ void add_info_command(CLI::App& program) {
   CLI::App& command = *program.add_subcommand("info", kDescription);
   command.footer(kFooter);
   command
-      .add_option(
-          "FIELD|MESH", request->input.path,
-          "Field (.npy, .nrrd, .nhdr, raw) or mesh (.ply, .obj, .off, .stl, .glb, .gltf, .drc)")
+      .add_option("FIELD|MESH", request->input.path,
+                  "Field (.npy, .nrrd, .nhdr, raw) or mesh (" + mesh_extensions_text() + ")")
       ->required();
   add_field_options(command, request->input);
   command

@@ -54,8 +54,8 @@ std::span<const ScalarKind> scalar_kinds() {
   return kKinds;
 }
 
-std::vector<VertexScalars> curvature_scalars(const Mesh& mesh, const CurvatureOptions& options,
-                                             std::int64_t& undefined) {
+std::vector<VertexScalar> curvature_scalars(const Mesh& mesh, const CurvatureOptions& options,
+                                            std::int64_t& undefined) {
   Curvature fitted = curvature(mesh, options);
   undefined = fitted.undefined_vertices;
   return {{"mean_curvature", numbers(std::move(fitted.mean))},
@@ -67,11 +67,10 @@ std::string scalars_name(std::string word) {
   return word;
 }
 
-VertexScalars scalars_of(const std::string& option, const std::string& word,
-                         const ScalarMesh& surface) {
+VertexScalar scalars_of(const std::string& option, const std::string& word, const Mesh& mesh) {
   const std::string name = scalars_name(word);
   std::string known;
-  for (const VertexScalars& scalars : surface.scalars) {
+  for (const VertexScalar& scalars : mesh.scalars) {
     if (scalars.name == name) {
       return scalars;
     }
@@ -79,7 +78,7 @@ VertexScalars scalars_of(const std::string& option, const std::string& word,
   }
   for (const ScalarKind& kind : kKinds) {
     if (kind.name == name) {
-      return {name, kind.of(surface.mesh)};
+      return {name, kind.of(mesh)};
     }
     known += (&kind == &kKinds.front() ? "" : ", ") + std::string(kind.name);
   }
@@ -87,8 +86,8 @@ VertexScalars scalars_of(const std::string& option, const std::string& word,
   throw CLI::ValidationError(option, "'" + word + "' is none of " + known + more);
 }
 
-bool has_scalars(const ScalarMesh& surface, const std::string& name) {
-  return std::ranges::find(surface.scalars, name, &VertexScalars::name) != surface.scalars.end();
+bool has_scalars(const Mesh& mesh, const std::string& name) {
+  return std::ranges::find(mesh.scalars, name, &VertexScalar::name) != mesh.scalars.end();
 }
 
 ColourMap map_of(const ColourScale& scale, const std::string& name) {

@@ -13,7 +13,7 @@
 
 #include "difmesh/curvature.hpp"
 #include "difmesh/io/colour_map.hpp"
-#include "difmesh/io/vertex_scalars.hpp"
+#include "difmesh/mesh.hpp"
 
 namespace difmesh::cli {
 
@@ -34,16 +34,16 @@ struct ScalarKind {
 [[nodiscard]] std::string scalars_name(std::string word);
 
 /// Mean and Gaussian curvature, 0 at vertices that have none, whose number is `undefined`.
-[[nodiscard]] std::vector<VertexScalars> curvature_scalars(const Mesh& mesh,
-                                                           const CurvatureOptions& options,
-                                                           std::int64_t& undefined);
+[[nodiscard]] std::vector<VertexScalar> curvature_scalars(const Mesh& mesh,
+                                                          const CurvatureOptions& options,
+                                                          std::int64_t& undefined);
 
-/// The scalars of that name: of the file that the mesh came from, or computed.
+/// The scalars of that name: the mesh's, or computed.
 /// \throw CLI::ValidationError naming the option, the word and what there is
-[[nodiscard]] VertexScalars scalars_of(const std::string& option, const std::string& word,
-                                       const ScalarMesh& surface);
+[[nodiscard]] VertexScalar scalars_of(const std::string& option, const std::string& word,
+                                      const Mesh& mesh);
 
-[[nodiscard]] bool has_scalars(const ScalarMesh& surface, const std::string& name);
+[[nodiscard]] bool has_scalars(const Mesh& mesh, const std::string& name);
 
 /// How numbers become colours, as far as the command line says.
 struct ColourScale {

@@ -21,4 +21,22 @@ std::string joined(std::span<const std::string_view> words) {
   return text;
 }
 
+bool is_mesh_file(const std::string& path) {
+  return mesh_format_of(path) != nullptr;
+}
+
+std::vector<std::string_view> mesh_extensions(HasFormat has) {
+  std::vector<std::string_view> extensions;
+  for (const MeshFormat& format : mesh_formats()) {
+    if (has == nullptr || has(format)) {
+      extensions.push_back(format.extension);
+    }
+  }
+  return extensions;
+}
+
+std::string mesh_extensions_text(HasFormat has) {
+  return joined(mesh_extensions(has));
+}
+
 }  // namespace difmesh::cli

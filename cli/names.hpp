@@ -6,8 +6,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "difmesh/io/gltf_file.hpp"
+#include "difmesh/io/mesh_format.hpp"
+#include "difmesh/io/write_mesh_options.hpp"
 #include "difmesh/options.hpp"
 #include "difmesh/values.hpp"
 
@@ -78,12 +80,7 @@ inline constexpr Range kPurityToleranceRange{0.0, 0.1};
 inline constexpr Range kOvershootBoundRange{0.0, 1.0};
 inline constexpr Range kMollifyRange{1.0, 8.0};
 
-/// Extensions that the mesh and field files of difmesh::io have, in lower case.
-inline constexpr std::array<std::string_view, 7> kMeshExtensions{".ply", ".obj",  ".off", ".stl",
-                                                                 ".glb", ".gltf", ".drc"};
-inline constexpr std::array<std::string_view, 1> kPlyExtensions{".ply"};
-inline constexpr std::array<std::string_view, 2> kGltfExtensions{".glb", ".gltf"};
-inline constexpr std::array<std::string_view, 1> kDracoExtensions{".drc"};
+/// Extensions that the field files of difmesh::io have, in lower case.
 inline constexpr std::array<std::string_view, 3> kFieldExtensions{".npy", ".nrrd", ".nhdr"};
 
 /// Whether a path has one of these extensions, in any case of letters.
@@ -91,5 +88,14 @@ inline constexpr std::array<std::string_view, 3> kFieldExtensions{".npy", ".nrrd
                                  std::span<const std::string_view> extensions);
 /// The words with commas between.
 [[nodiscard]] std::string joined(std::span<const std::string_view> words);
+
+/// Whether the extension is that of a mesh.
+[[nodiscard]] bool is_mesh_file(const std::string& path);
+/// Tells one thing of a format.
+using HasFormat = bool (*)(const MeshFormat& format);
+/// The extensions of all formats of meshes, or of those that have something.
+[[nodiscard]] std::vector<std::string_view> mesh_extensions(HasFormat has = nullptr);
+/// ".ply, .obj, .off": the same, joined.
+[[nodiscard]] std::string mesh_extensions_text(HasFormat has = nullptr);
 
 }  // namespace difmesh::cli

@@ -247,7 +247,7 @@ void smooth(const Request& request, const LoadedField& field, LongCall& long_cal
 Reconstruction reconstruct_file(const Request& request, const LoadedField& field,
                                 LongCall& long_call) {
   Options options = request.options;
-  options.vertex_normals = options.vertex_normals || request.output.is_gltf();
+  options.vertex_normals = options.vertex_normals || request.output.shows_normals();
   options.edge_ids = options.edge_ids || request.smoothing.has_value();
   options.progress = long_call.progress();
   try {
@@ -262,14 +262,14 @@ Reconstruction reconstruct_file(const Request& request, const LoadedField& field
 }
 
 /// What is to be written with the vertices.
-std::vector<VertexScalars> scalars_for(const Request& request, const Mesh& mesh) {
+std::vector<VertexScalar> scalars_for(const Request& request, const Mesh& mesh) {
   if (!request.output.curvature) {
     return {};
   }
   CurvatureOptions options;
   options.threads = request.options.threads;
   std::int64_t undefined = 0;
-  std::vector<VertexScalars> scalars = curvature_scalars(mesh, options, undefined);
+  std::vector<VertexScalar> scalars = curvature_scalars(mesh, options, undefined);
   if (undefined > 0 && !request.quiet) {
     warn("'" + request.input.path + "': no curvature on parts that are too small, 0 is written: " +
          std::to_string(undefined) + " of " + std::to_string(mesh.positions.size()) + " vertices");
@@ -304,8 +304,8 @@ Json file_json(const MeshFileReport& written) {
 }
 
 /// Mesh and report. \param warnings get what the format does to the mesh
-MeshFileReport write_outputs(const Request& request, const ScalarMesh& surface, double cell_size,
-                             Json& json, std::vector<std::string>& warnings) {
+MeshFileReport write_outputs(const Request& request, Mesh& mesh, double cell_size, Json& json,
+                             std::vector<std::string>& warnings) {
   // Where not even a report without the facts of the mesh's file can be written, there is no mesh.
   std::optional<OutputFile> draft;
   if (!request.report_path.empty()) {
@@ -313,7 +313,7 @@ MeshFileReport write_outputs(const Request& request, const ScalarMesh& surface, 
     json["warnings"] = warnings;
     draft.emplace(request.report_path, to_text(json));
   }
-  const MeshFileReport written = write_surface(request.output, surface, cell_size);
+  const MeshFileReport written = write_surface(request.output, mesh, cell_size);
   if (const std::optional<std::string> warning =
           rounding_warning(request.output, written, cell_size)) {
     warnings.push_back(*warning);
@@ -334,20 +334,20 @@ void run(const Request& request) {
   seconds.read = watch.lap();
 
   LongCall long_call("reconstructing", request.quiet);
-  const Reconstruction result = reconstruct_file(request, field, long_call);
+  Reconstruction result = reconstruct_file(request, field, long_call);
   long_call.done();
   std::vector<std::string> warnings;  // of the files
-  std::vector<VertexScalars> scalars = scalars_for(request, result.mesh);
+  result.mesh.scalars = scalars_for(request, result.mesh);
   if (request.reference.is_given() && !result.mesh.triangles.empty()) {
-    scalars.push_back(errors_of(result.mesh, request.reference, request.quiet, warnings));
+    result.mesh.scalars.push_back(
+        errors_of(result.mesh, request.reference, request.quiet, warnings));
   }
   seconds.reconstruct = watch.lap();
   add_warnings(request, field, result, warnings);
 
   Json json = report_json(request, field, result, seconds);
   const double cell = *std::min_element(field.grid.spacing.begin(), field.grid.spacing.end());
-  const MeshFileReport written =
-      write_outputs(request, {result.mesh, std::move(scalars)}, cell, json, warnings);
+  const MeshFileReport written = write_outputs(request, result.mesh, cell, json, warnings);
   seconds.write = watch.lap();
 
   if (!request.quiet) {
@@ -456,7 +456,7 @@ void add_reconstruct_command(CLI::App& program) {
       ->required();
   command
       .add_option("-o,--output", request->output.path,
-                  "Mesh to write (.ply, .obj, .off, .stl, .glb, .gltf, .drc)")
+                  "Mesh to write (" + mesh_extensions_text() + ")")
       ->required()
       ->option_text("MESH");
   add_method_options(command, *request);
@@ -466,7 +466,8 @@ void add_reconstruct_command(CLI::App& program) {
       "--vertex-normals", request->options.vertex_normals,
       "Write a normal with each vertex (not in .stl; .glb and .gltf always have them)");
   command.add_flag("--edge-ids", request->options.edge_ids,
-                   "Write the id of its dual edge with each vertex (.ply, .glb, .gltf, .drc)");
+                   "Write the id of its dual edge with each vertex (" +
+                       mesh_extensions_text([](const MeshFormat& f) { return f.edge_ids; }) + ")");
   add_surface_options(command, request->output);
   command
       .add_option("--report", request->report_path,

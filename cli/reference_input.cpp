@@ -6,6 +6,7 @@
 #include "difmesh/io/mesh_file.hpp"
 #include "long_call.hpp"
 #include "mesh_scalars.hpp"
+#include "names.hpp"
 #ifdef DIFMESH_WITH_METRICS
 #include "difmesh/point_distances.hpp"
 #endif
@@ -55,7 +56,7 @@ void add_reference_options(CLI::App& command, ReferenceInput& input) {
       ->option_text("SHAPE");
   command
       .add_option("--reference", input.path,
-                  "What the surface should be: a mesh (.ply, .obj, .off, .stl, .glb,\n.gltf, .drc)")
+                  "What the surface should be: a mesh\n(" + mesh_extensions_text() + ")")
       ->option_text("MESHFILE");
   add_shape_options(command, input.shape);
 }
@@ -74,7 +75,7 @@ void check_reference(const ReferenceInput& input) {
 
 Mesh read_triangles(const std::string& path, bool allow_outside,
                     std::vector<std::string>& warnings) {
-  ScalarMesh read = read_scalar_mesh(path, {.outside_files = allow_outside});
+  MeshFile read = read_mesh_file(path, {.outside_files = allow_outside});
   warnings.insert(warnings.end(), read.warnings.begin(), read.warnings.end());
   if (read.mesh.triangles.empty()) {
     throw Error(ErrorCode::file_format, "'" + path + "': the mesh has no triangles");
@@ -82,8 +83,8 @@ Mesh read_triangles(const std::string& path, bool allow_outside,
   return std::move(read.mesh);
 }
 
-VertexScalars errors_of(const Mesh& mesh, const ReferenceInput& input, bool quiet,
-                        std::vector<std::string>& warnings) {
+VertexScalar errors_of(const Mesh& mesh, const ReferenceInput& input, bool quiet,
+                       std::vector<std::string>& warnings) {
   return {kErrorName, input.shape_name.empty() ? distances_from_mesh(mesh, input, quiet, warnings)
                                                : distances_from_shape(mesh, input)};
 }

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "difmesh/io/vertex_scalars.hpp"
 #include "difmesh/mesh.hpp"
 #include "shape_options.hpp"
 
@@ -36,7 +35,7 @@ void check_reference(const ReferenceInput& input);
 /// Appends what the reader of a reference mesh warns of.
 /// \pre input.is_given()
 /// \throw Error; for a reference mesh in a build without difmesh::metrics too
-[[nodiscard]] VertexScalars errors_of(const Mesh& mesh, const ReferenceInput& input, bool quiet,
-                                      std::vector<std::string>& warnings);
+[[nodiscard]] VertexScalar errors_of(const Mesh& mesh, const ReferenceInput& input, bool quiet,
+                                     std::vector<std::string>& warnings);
 
 }  // namespace difmesh::cli

@@ -70,7 +70,7 @@ struct Request {
   int threads = 0;
   bool quiet = false;
 
-  [[nodiscard]] bool is_mesh() const { return has_extension(body, kMeshExtensions); }
+  [[nodiscard]] bool is_mesh() const { return is_mesh_file(body); }
 };
 
 struct Sample {
@@ -88,7 +88,7 @@ struct Sample {
 
 Sample sample_shape(const Request& request, LongCall& long_call) {
   const Shape shape = request.shape.make(
-      parse_shape("SHAPE|MESHFILE", request.body, ", nor a mesh: " + joined(kMeshExtensions)));
+      parse_shape("SHAPE|MESHFILE", request.body, ", nor a mesh: " + mesh_extensions_text()));
   Sample sample;
   sample.grid = grid_around(shape.bounds(), request.grid);
   FractionsFromFunctionOptions options;
@@ -129,7 +129,7 @@ std::int64_t interfacial_cells(const Array<double>& fractions) {
 
 Sample sample_mesh(const Request& request, LongCall& long_call) {
   Sample sample;
-  ScalarMesh read = read_scalar_mesh(request.body, {.outside_files = request.allow_outside});
+  MeshFile read = read_mesh_file(request.body, {.outside_files = request.allow_outside});
   const Mesh& mesh = read.mesh;
   sample.warnings = std::move(read.warnings);
   sample.grid = grid_around(bounds_of(request.body, mesh), request.grid);
@@ -304,7 +304,7 @@ void add_sample_command(CLI::App& program) {
   command.footer(kFooter);
   command
       .add_option("SHAPE|MESHFILE", request->body,
-                  "Name of a shape, or closed mesh (.ply, .obj, .off, .stl, .glb, .gltf, .drc)")
+                  "Name of a shape, or closed mesh (" + mesh_extensions_text() + ")")
       ->required();
   command.add_option("-o,--output", request->field_path, "Field to write (.nrrd, .npy)")
       ->required()

@@ -1,10 +1,9 @@
 #include "surface_output.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <string_view>
 #include <vector>
 
-#include "difmesh/io/draco_file.hpp"
 #include "difmesh/io/mesh_file.hpp"
 #include "mesh_scalars.hpp"
 #include "names.hpp"
@@ -17,8 +16,41 @@ namespace {
 // Of the spacing: as much as second-order vertices are off by on coarse grids.
 constexpr double kCoarse = 0.01;
 
-bool is_drc(const SurfaceOutput& output) {
-  return has_extension(output.path, kDracoExtensions);
+bool has_colours(const MeshFormat& format) {
+  return format.colours;
+}
+bool has_scene(const MeshFormat& format) {
+  return format.scene;
+}
+bool has_scalar_place(const MeshFormat& format) {
+  return format.scalars;
+}
+bool has_compression(const MeshFormat& format) {
+  return format.compression != Compression::none;
+}
+bool is_compressed(const MeshFormat& format) {
+  return format.compression == Compression::always;
+}
+bool is_exact(const MeshFormat& format) {
+  return format.exact;
+}
+
+/// ".ply, .glb and .gltf", with "nor" for instance in the place of "and".
+std::string listed(HasFormat has, const std::string& last_joint) {
+  std::vector<std::string_view> words = mesh_extensions(has);
+  const std::string last(words.back());
+  words.pop_back();
+  return words.empty() ? last : joined(words) + " " + last_joint + " " + last;
+}
+
+/// \pre the extension is known
+const MeshFormat& format_of(const SurfaceOutput& output) {
+  return *mesh_format_of(output.path);
+}
+
+bool uses_draco(const SurfaceOutput& output) {
+  const MeshFormat& format = format_of(output);
+  return is_compressed(format) || (has_compression(format) && !output.draco.empty());
 }
 
 DracoOptions draco_options(const SurfaceOutput& output, double cell_size) {
@@ -32,31 +64,17 @@ DracoOptions draco_options(const SurfaceOutput& output, double cell_size) {
   return draco;
 }
 
-MeshFileReport write_as_gltf(const SurfaceOutput& output, const ScalarMesh& surface,
-                             double cell_size) {
-  WriteGltfOptions options;
-  if (!output.draco.empty()) {
-    options.draco = draco_options(output, cell_size);
-  }
-  options.scalars = surface.scalars;
-  if (!output.color_by.empty()) {
-    const std::string name = scalars_name(output.color_by);
-    if (!has_scalars(surface, name)) {
-      options.scalars.push_back(scalars_of("--color-by", output.color_by, surface));
-    }
-    options.colour = ColourBy{name, map_of(output.colours, name), output.colours.range};
-  }
-  options.up = output.up.value_or(options.up);
-  options.metres_per_unit = output.metres_per_unit.value_or(options.metres_per_unit);
-  return write_gltf(output.path, surface.mesh, options);
-}
-
 void add_draco_options(CLI::App& command, SurfaceOutput& output) {
   command
-      .add_flag("--draco", output.draco,
-                "Compress .glb and .gltf with Draco. --draco=BITS, also for .drc,\n"
-                "sets the bits per coordinate, 1 to 24; as many as keep errors within\n"
-                "a thousandth of the spacing if not given")
+      .add_flag(
+          "--draco", output.draco,
+          "Compress " +
+              listed([](const MeshFormat& f) { return f.compression == Compression::optional; },
+                     "and") +
+              " with Draco. --draco=BITS, also for " + listed(is_compressed, "and") +
+              ",\n"
+              "sets the bits per coordinate, 1 to 24; as many as keep errors within\n"
+              "a thousandth of the spacing if not given")
       ->option_text("[=BITS]");
   command
       .add_option_function<std::string>(
@@ -90,30 +108,33 @@ std::string kinds_text() {
 
 void add_colour_options(CLI::App& command, SurfaceOutput& output) {
   command
-      .add_option(
-          "--color-by", output.color_by,
-          "Colour .glb and .gltf by a number per vertex, which is written too:" + kinds_text())
+      .add_option("--color-by", output.color_by,
+                  "Colour " + listed(has_colours, "and") +
+                      " by a number per vertex, which is written too:" + kinds_text())
       ->option_text("NAME");
   add_colour_scale_options(command, output.colours);
 }
 
 }  // namespace
 
-bool SurfaceOutput::is_gltf() const {
-  return has_extension(path, kGltfExtensions);
+bool SurfaceOutput::shows_normals() const {
+  const MeshFormat* const format = mesh_format_of(path);
+  return format != nullptr && has_scene(*format);
 }
 
 void add_surface_options(CLI::App& command, SurfaceOutput& output) {
   command.add_flag("--curvature", output.curvature,
-                   "Write mean and Gaussian curvature with each vertex (.ply, .glb, .gltf, .drc)");
+                   "Write mean and Gaussian curvature with each vertex (" +
+                       mesh_extensions_text(has_scalar_place) + ")");
   add_draco_options(command, output);
   add_colour_options(command, output);
   command
       .add_option_function<std::string>(
           "--up",
           [&output](const std::string& text) { output.up = parse_name("--up", text, kUpAxes); },
-          "The axis that points up, for .glb and .gltf, where that is y: y\n"
-          "(default) leaves coordinates as they are, z has viewers turn them")
+          "The axis that points up, for " + listed(has_scene, "and") +
+              ", where that is y: y\n"
+              "(default) leaves coordinates as they are, z has viewers turn them")
       ->option_text("AXIS");
   command
       .add_option_function<std::string>(
@@ -121,62 +142,66 @@ void add_surface_options(CLI::App& command, SurfaceOutput& output) {
           [&output](const std::string& text) {
             output.metres_per_unit = parse_number("--metres-per-unit", text, {1e-30, 1e30});
           },
-          "The unit of the field's lengths, for .glb and .gltf. Default: 1")
+          "The unit of the field's lengths, for " + listed(has_scene, "and") + ". Default: 1")
       ->option_text("M");
 }
 
 void check_surface_output(const SurfaceOutput& output, const std::vector<std::string>& scalars) {
-  if (!has_extension(output.path, kMeshExtensions)) {
+  if (!is_mesh_file(output.path)) {
     throw CLI::ValidationError(
         "--output",
-        "'" + output.path + "' has an unknown extension; meshes are " + joined(kMeshExtensions));
+        "'" + output.path + "' has an unknown extension; meshes are " + mesh_extensions_text());
   }
-  const auto check = [&](bool is_given, bool fits, const char* option, const char* formats) {
-    if (is_given && !fits) {
-      throw CLI::ValidationError(option, "'" + output.path + "' is neither " + formats);
+  const auto check = [&](bool is_given, const char* option, HasFormat has) {
+    if (is_given && !has(format_of(output))) {
+      throw CLI::ValidationError(option, "'" + output.path + "' is neither " + listed(has, "nor"));
     }
   };
-  const bool gltf = output.is_gltf();
-  const bool draco = (gltf && !output.draco.empty()) || is_drc(output);
-  check(!output.draco.empty(), gltf || is_drc(output), "--draco", ".glb, .gltf nor .drc");
-  check(output.draco_method.has_value(), draco, "--draco-method", ".drc nor is --draco given");
-  check(output.draco_speed.has_value(), draco, "--draco-speed", ".drc nor is --draco given");
-  check(output.curvature, gltf || is_drc(output) || has_extension(output.path, kPlyExtensions),
-        "--curvature", ".ply, .glb, .gltf nor .drc");
-  check(!output.color_by.empty(), gltf, "--color-by", ".glb nor .gltf");
-  check(output.up.has_value(), gltf, "--up", ".glb nor .gltf");
-  check(output.metres_per_unit.has_value(), gltf, "--metres-per-unit", ".glb nor .gltf");
+  const auto check_draco = [&](bool is_given, const char* option) {
+    if (is_given && !uses_draco(output)) {
+      throw CLI::ValidationError(option, "'" + output.path + "' is neither " +
+                                             listed(is_compressed, "nor") +
+                                             " nor is --draco given");
+    }
+  };
+  check(!output.draco.empty(), "--draco", has_compression);
+  check_draco(output.draco_method.has_value(), "--draco-method");
+  check_draco(output.draco_speed.has_value(), "--draco-speed");
+  check(output.curvature, "--curvature", has_scalar_place);
+  check(!output.color_by.empty(), "--color-by", has_colours);
+  check(output.up.has_value(), "--up", has_scene);
+  check(output.metres_per_unit.has_value(), "--metres-per-unit", has_scene);
   if (output.color_by.empty() && (output.colours.map || output.colours.range)) {
     throw CLI::ValidationError(output.colours.map ? "--color-map" : "--color-range",
                                "needs --color-by");
   }
   // Wrong words are told before the work begins.
   (void)draco_options(output, 1.0);
-  ScalarMesh promised;
+  Mesh promised;
   for (const std::string& name : scalars) {
     promised.scalars.push_back({name, {}});
   }
-  check(!scalars.empty(), gltf || is_drc(output), "--shape and --reference",
-        ".glb, .gltf nor .drc");
+  check(!scalars.empty(), "--shape and --reference", has_scalar_place);
   if (!output.color_by.empty()) {
     (void)scalars_of("--color-by", output.color_by, promised);
   }
 }
 
-MeshFileReport write_surface(const SurfaceOutput& output, const ScalarMesh& surface,
-                             double cell_size) {
-  if (output.is_gltf()) {
-    return write_as_gltf(output, surface, cell_size);
-  }
-  if (is_drc(output)) {
-    WriteDrcOptions options;
-    options.scalars = surface.scalars;
-    options.draco = draco_options(output, cell_size);
-    return write_drc(output.path, surface.mesh, options);
-  }
+MeshFileReport write_surface(const SurfaceOutput& output, Mesh& mesh, double cell_size) {
   WriteMeshOptions options;
-  options.scalars = surface.scalars;
-  return write_mesh(output.path, surface.mesh, options);
+  if (uses_draco(output)) {
+    options.draco = draco_options(output, cell_size);
+  }
+  if (!output.color_by.empty()) {
+    const std::string name = scalars_name(output.color_by);
+    if (!has_scalars(mesh, name)) {
+      mesh.scalars.push_back(scalars_of("--color-by", output.color_by, mesh));
+    }
+    options.colour = ColourBy{name, map_of(output.colours, name), output.colours.range};
+  }
+  options.up = output.up.value_or(options.up);
+  options.metres_per_unit = output.metres_per_unit.value_or(options.metres_per_unit);
+  return write_mesh(output.path, mesh, options);
 }
 
 std::string file_text(const MeshFileReport& report) {
@@ -203,7 +228,7 @@ std::optional<std::string> rounding_warning(const SurfaceOutput& output,
     text += ", and " + std::to_string(report.collapsed_triangles) + " of " +
             count_of(report.triangles, "triangle") + " collapse";
   }
-  return text + "; .ply, .obj and .off keep all digits";
+  return text + "; " + listed(is_exact, "and") + " keep all digits";
 }
 
 }  // namespace difmesh::cli

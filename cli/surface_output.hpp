@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "difmesh/io/gltf_file.hpp"
 #include "difmesh/io/mesh_file_report.hpp"
-#include "difmesh/io/vertex_scalars.hpp"
+#include "difmesh/io/write_mesh_options.hpp"
+#include "difmesh/mesh.hpp"
 #include "mesh_scalars.hpp"
 
 namespace difmesh::cli {
@@ -26,7 +26,8 @@ struct SurfaceOutput {
   std::optional<UpAxis> up;
   std::optional<double> metres_per_unit;
 
-  [[nodiscard]] bool is_gltf() const;
+  /// Whether the format is for looking at, and wants the best normals that there are.
+  [[nodiscard]] bool shows_normals() const;
 };
 
 /// Adds --draco, --curvature and the others. `output` must outlive the parsing.
@@ -35,11 +36,10 @@ void add_surface_options(CLI::App& command, SurfaceOutput& output);
 /// \throw CLI::ValidationError for an unknown extension, and options that the format does not have
 void check_surface_output(const SurfaceOutput& output, const std::vector<std::string>& scalars);
 /// Writes the mesh. \return what is in the file
-/// \param surface its scalars are written where the format has them
+/// \param mesh gets the scalars to colour by, where it does not have them
 /// \param cell_size Δx, for the choice of Draco's bits
 /// \throw Error
-MeshFileReport write_surface(const SurfaceOutput& output, const ScalarMesh& surface,
-                             double cell_size);
+MeshFileReport write_surface(const SurfaceOutput& output, Mesh& mesh, double cell_size);
 
 /// Size and error of a file in words.
 [[nodiscard]] std::string file_text(const MeshFileReport& report);

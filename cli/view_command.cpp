@@ -11,7 +11,7 @@
 
 #include "command.hpp"
 #include "difmesh/error.hpp"
-#include "difmesh/io/gltf_file.hpp"
+#include "difmesh/io/glb.hpp"
 #include "difmesh/io/mesh_file.hpp"
 #include "difmesh/reconstruct.hpp"
 #include "field_input.hpp"
@@ -62,7 +62,7 @@ struct Request {
 
 struct Shown {
   std::string name;
-  ScalarMesh surface;
+  MeshFile surface;
 };
 
 std::string file_name(const std::string& path) {
@@ -81,7 +81,7 @@ Shown reconstructed(const LoadedField& field, const std::string& path, Placement
   options.vertex_normals = true;
   options.progress = long_call.progress();
   try {
-    Shown shown{name, {reconstruct(field.file.view(), field.grid, options).mesh, {}}};
+    Shown shown{name, {reconstruct(field.file.view(), field.grid, options).mesh}};
     long_call.done();
     return shown;
   } catch (const Error& error) {
@@ -89,13 +89,13 @@ Shown reconstructed(const LoadedField& field, const std::string& path, Placement
   }
 }
 
-ScalarMesh read_surface(const std::string& path, bool allow_outside) {
-  if (!has_extension(path, kMeshExtensions)) {
+MeshFile read_surface(const std::string& path, bool allow_outside) {
+  if (!is_mesh_file(path)) {
     throw Error(ErrorCode::file_format, "'" + path + "': unknown extension; meshes are " +
-                                            joined(kMeshExtensions) + ", fields " +
+                                            mesh_extensions_text() + ", fields " +
                                             joined(kFieldExtensions));
   }
-  return read_scalar_mesh(path, {.outside_files = allow_outside});
+  return read_mesh_file(path, {.outside_files = allow_outside});
 }
 
 /// A field alone gives two surfaces; beside another input it gives one.
@@ -136,10 +136,10 @@ std::vector<Shown> load_all(const Request& request) {
       throw Error(ErrorCode::invalid_value, "'" + one.name + "': the surface is empty");
     }
     if (request.reference.is_given()) {
-      std::erase_if(one.surface.scalars,
-                    [](const VertexScalars& scalars) { return scalars.name == kErrorName; });
-      one.surface.scalars.push_back(
-          errors_of(one.surface.mesh, request.reference, request.quiet, warnings));
+      Mesh& mesh = one.surface.mesh;
+      std::erase_if(mesh.scalars,
+                    [](const VertexScalar& scalars) { return scalars.name == kErrorName; });
+      mesh.scalars.push_back(errors_of(mesh, request.reference, request.quiet, warnings));
     }
   }
   if (!request.quiet) {
@@ -148,19 +148,14 @@ std::vector<Shown> load_all(const Request& request) {
   return shown;
 }
 
-/// All scalars that there are, those of the file first.
-std::vector<VertexScalars> all_scalars(const ScalarMesh& surface) {
-  std::vector<VertexScalars> all = surface.scalars;
+/// Adds the scalars that there are beside those of the file.
+void add_all_scalars(Mesh& mesh) {
   for (const ScalarKind& kind : scalar_kinds()) {
-    bool is_taken = false;
-    for (const VertexScalars& scalars : all) {
-      is_taken = is_taken || scalars.name == kind.name;
-    }
-    if (!is_taken) {
-      all.push_back({std::string(kind.name), kind.of(surface.mesh)});
+    const std::string name(kind.name);
+    if (!has_scalars(mesh, name)) {
+      mesh.scalars.push_back({name, kind.of(mesh)});
     }
   }
-  return all;
 }
 
 std::vector<std::array<int, 3>> colour_table(ColourMap map) {
@@ -174,18 +169,18 @@ std::vector<std::array<int, 3>> colour_table(ColourMap map) {
   return table;
 }
 
-Json scene_json(const Request& request, const std::vector<Shown>& shown) {
+Json scene_json(const Request& request, std::vector<Shown>& shown) {
   Json scene;
   scene["title"] = file_name(request.input.path) +
                    (request.second_path.empty() ? "" : ", " + file_name(request.second_path));
   scene["surfaces"] = Json::array();
-  for (const Shown& one : shown) {
+  for (Shown& one : shown) {
     if (!request.color_by.empty()) {
-      (void)scalars_of("--color-by", request.color_by, one.surface);
+      (void)scalars_of("--color-by", request.color_by, one.surface.mesh);
     }
-    WriteGltfOptions options;
+    add_all_scalars(one.surface.mesh);
+    WriteMeshOptions options;
     options.edge_ids = false;
-    options.scalars = all_scalars(one.surface);
     options.up = request.up;
     options.name = one.name;
     scene["surfaces"].push_back(
@@ -216,7 +211,7 @@ void run(const Request& request) {
   if (!request.second_path.empty()) {
     check_output("--output", request.page_path, request.second_path);
   }
-  const std::vector<Shown> shown = load_all(request);
+  std::vector<Shown> shown = load_all(request);
   const Json scene = scene_json(request, shown);
   std::string page(kPageBeforeScene);
   page += without_tags(scene.dump(-1, ' ', false, Json::error_handler_t::replace));
@@ -263,8 +258,9 @@ void add_view_command(CLI::App& program) {
   command.footer(kFooter);
   command
       .add_option("MESH|FIELD", request->input.path,
-                  "Mesh (.ply, .obj, .off, .stl, .glb, .gltf, .drc) or field (.npy, .nrrd, .nhdr,\n"
-                  "raw)")
+                  "Mesh (" + mesh_extensions_text() +
+                      ") or field (.npy, .nrrd, .nhdr,\n"
+                      "raw)")
       ->required();
   command.add_option("SECOND", request->second_path, "Another mesh or field to show with it");
   command.add_option("-o,--output", request->page_path, "Page to write (.html)")

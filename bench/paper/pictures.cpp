@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "difmesh/curvature.hpp"
-#include "difmesh/io/gltf_file.hpp"
+#include "difmesh/io/mesh_file.hpp"
 #include "errors.hpp"
 #include "run.hpp"
 #include "surfaces.hpp"
@@ -32,18 +32,18 @@ struct Sheet {
 };
 
 /// Distance from the body and error of the mean curvature, in the body's size.
-std::vector<VertexScalars> scalars_of(const Body& body, const Mesh& mesh) {
+std::vector<VertexScalar> scalars_of(const Body& body, const Mesh& mesh) {
   const std::vector<double> distances = vertex_distances(body, mesh);
   const Curvature fitted = curvature(mesh);
-  VertexScalars distance{"distance", {}};
-  VertexScalars error{"curvature_error", {}};
+  VertexScalar distance{"distance", {}};
+  VertexScalar error{"curvature_error", {}};
   for (std::size_t v = 0; v < distances.size(); ++v) {
     distance.values.push_back(distances[v] / body.size);
     if (const auto exact = exact_curvatures(body, mesh.positions[v], distances[v])) {
       error.values.push_back((fitted.mean[v] - exact->mean) * body.size);
     }
   }
-  std::vector<VertexScalars> all{std::move(distance)};
+  std::vector<VertexScalar> all{std::move(distance)};
   if (error.values.size() == distances.size()) {
     all.push_back(std::move(error));
   }
@@ -57,10 +57,9 @@ Json draw(const Run& run, const std::filesystem::path& folder, const Sheet& shee
   Json panels = Json::array();
   for (const std::string& name : sheet.ways) {
     const std::string file = sheet.name + "_" + std::to_string(panels.size()) + ".glb";
-    const Mesh mesh = way(name).surface(at);
-    WriteGltfOptions options;
-    options.scalars = scalars_of(sheet.body, mesh);
-    (void)write_gltf(folder / file, mesh, options);
+    Mesh mesh = way(name).surface(at);
+    mesh.scalars = scalars_of(sheet.body, mesh);
+    (void)write_mesh(folder / file, mesh);
     panels.push_back({{"file", file},
                       {"caption", name + (sheet.colour.empty() ? "" : ", " + sheet.range_text)},
                       {"colour", sheet.colour},

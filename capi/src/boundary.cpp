@@ -65,6 +65,8 @@ dif_status status_of(ErrorCode code) noexcept {
       return DIF_ERROR_FILE_FORMAT;
     case ErrorCode::file_write:
       return DIF_ERROR_FILE_WRITE;
+    case ErrorCode::unsupported:
+      return DIF_ERROR_UNSUPPORTED;
   }
   return DIF_ERROR_INTERNAL;
 }

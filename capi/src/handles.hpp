@@ -10,21 +10,10 @@
 #include "difmesh/reconstruct.hpp"
 #include "difmesh/shapes.hpp"
 
-namespace difmesh::capi {
-
-/// Numbers of the caller's own, one per vertex.
-struct Scalars {
-  std::string name;
-  Array<double> values;
-};
-
-}  // namespace difmesh::capi
-
 struct dif_mesh {
   difmesh::Mesh mesh;
   std::optional<difmesh::Report> report = {};  ///< of meshes that a reconstruction made
-  std::vector<difmesh::capi::Scalars> scalars = {};
-  std::vector<std::string> warnings = {};  ///< of the file that the mesh comes from
+  std::vector<std::string> warnings = {};      ///< of the file that the mesh comes from
 };
 
 struct dif_shape {

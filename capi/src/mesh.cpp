@@ -181,16 +181,16 @@ dif_status dif_mesh_set_edge_ids(dif_mesh* mesh, const uint64_t* ids) {
 
 dif_status dif_mesh_set_scalars(dif_mesh* mesh, const char* name, const double* values) {
   return capi::guarded([&] {
-    dif_mesh& target = capi::required(mesh, "mesh");
+    difmesh::Mesh& target = capi::required(mesh, "mesh").mesh;
     const std::string key = scalars_name(name);
-    const auto place = std::ranges::find(target.scalars, key, &capi::Scalars::name);
+    const auto place = std::ranges::find(target.scalars, key, &difmesh::VertexScalar::name);
     if (values == nullptr) {
       if (place != target.scalars.end()) {
         target.scalars.erase(place);
       }
       return;
     }
-    Array<double> copied(values, values + target.mesh.positions.size());
+    Array<double> copied(values, values + target.positions.size());
     if (place != target.scalars.end()) {
       place->values = std::move(copied);
     } else {
@@ -201,7 +201,7 @@ dif_status dif_mesh_set_scalars(dif_mesh* mesh, const char* name, const double* 
 
 dif_status dif_mesh_scalars_name(const dif_mesh* mesh, int64_t index, const char** name) {
   return capi::guarded([&] {
-    const std::vector<capi::Scalars>& scalars = capi::required(mesh, "mesh").scalars;
+    const std::vector<difmesh::VertexScalar>& scalars = capi::required(mesh, "mesh").mesh.scalars;
     capi::required(name, "name");
     if (index < 0) {
       capi::fail_argument("index is " + std::to_string(index) + "; it must not be negative");
@@ -214,9 +214,9 @@ dif_status dif_mesh_scalars_name(const dif_mesh* mesh, int64_t index, const char
 dif_status dif_mesh_scalars(const dif_mesh* mesh, const char* name, const double** values,
                             int64_t* vertices) {
   return capi::guarded([&] {
-    const std::vector<capi::Scalars>& scalars = capi::required(mesh, "mesh").scalars;
+    const std::vector<difmesh::VertexScalar>& scalars = capi::required(mesh, "mesh").mesh.scalars;
     const std::string key = &capi::required(name, "name");
-    const auto place = std::ranges::find(scalars, key, &capi::Scalars::name);
+    const auto place = std::ranges::find(scalars, key, &difmesh::VertexScalar::name);
     if (place == scalars.end()) {
       borrow(Array<double>{}, values, vertices, "values");
     } else {

@@ -1,16 +1,12 @@
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "boundary.hpp"
 #include "convert.hpp"
-#include "difmesh/io/draco_file.hpp"
-#include "difmesh/io/gltf_file.hpp"
 #include "difmesh/io/mesh_file.hpp"
-#include "difmesh/io/mesh_file_report.hpp"
 #include "handles.hpp"
 
 namespace capi = difmesh::capi;
@@ -19,79 +15,14 @@ namespace {
 
 using difmesh::ColourMap;
 using difmesh::DracoMethod;
-using difmesh::MeshFormat;
 using difmesh::UpAxis;
-using difmesh::VertexScalars;
 
-constexpr std::array kFormats{MeshFormat::ply, MeshFormat::obj,  MeshFormat::off, MeshFormat::stl,
-                              MeshFormat::glb, MeshFormat::gltf, MeshFormat::drc};
+/// The extensions of DIF_MESH_FORMAT_..., in their order.
+constexpr std::array<std::string_view, 7> kFormats{".ply", ".obj",  ".off", ".stl",
+                                                   ".glb", ".gltf", ".drc"};
 constexpr std::array kDracoMethods{DracoMethod::edgebreaker, DracoMethod::sequential};
 constexpr std::array kColourMaps{ColourMap::viridis, ColourMap::cool_warm};
 constexpr std::array kUpAxes{UpAxis::y, UpAxis::z};
-
-bool is_gltf(std::optional<MeshFormat> format) {
-  return format == MeshFormat::glb || format == MeshFormat::gltf;
-}
-
-/// Instead of the io library's own words, so that callers can tell.
-void check_parts(std::optional<MeshFormat> format, bool draco) {
-  if (is_gltf(format) && dif_has(DIF_PART_GLTF) == 0) {
-    throw capi::Failure(DIF_ERROR_UNSUPPORTED, "this build of the library has no glTF");
-  }
-  if ((draco || format == MeshFormat::drc) && dif_has(DIF_PART_DRACO) == 0) {
-    throw capi::Failure(DIF_ERROR_UNSUPPORTED, "this build of the library has no Draco");
-  }
-}
-
-/// The options of a call, and the format that they or the path ask for.
-struct Request {
-  dif_mesh_write_options given;
-  std::optional<MeshFormat> format;
-  bool normals;
-  bool edge_ids;
-  std::vector<VertexScalars> scalars;
-};
-
-/// Wishes that would be passed over in silence.
-void check_format(const Request& request, const char* path) {
-  const dif_mesh_write_options& given = request.given;
-  const auto check = [&](bool is_wish, bool has, const char* name, const char* formats) {
-    if (is_wish && !has) {
-      capi::fail_argument(std::string(name) + " is set, but '" + path + "' is written as no " +
-                          formats);
-    }
-  };
-  const bool gltf = is_gltf(request.format);
-  check(capi::to_bool(given.draco, "draco"), gltf || request.format == MeshFormat::drc, "draco",
-        "glTF nor Draco");
-  check(given.colour_by != nullptr, gltf, "colour_by", "glTF");
-  const UpAxis up = capi::to_choice(given.up, UpAxis::y, kUpAxes, "up");
-  check(up != UpAxis::y, gltf, "up", "glTF");
-  check(given.metres_per_unit != 1.0, gltf, "metres_per_unit", "glTF");
-}
-
-Request to_request(const dif_mesh& mesh, const char* path, const dif_mesh_write_options* options) {
-  dif_mesh_write_options defaults{};
-  dif_mesh_write_options_init(&defaults, sizeof defaults);
-  const dif_mesh_write_options given = capi::read_struct(options, defaults, "options");
-  capi::require_zero(given.reserved, "options");
-  Request request{given,
-                  difmesh::mesh_format_of(path),
-                  capi::to_bool(given.normals, "normals"),
-                  capi::to_bool(given.edge_ids, "edge_ids"),
-                  {}};
-  if (given.format != DIF_MESH_FORMAT_BY_EXTENSION) {
-    request.format = capi::to_choice(given.format, MeshFormat::ply, kFormats, "format");
-  }
-  if (capi::to_bool(given.scalars, "scalars")) {
-    for (const capi::Scalars& scalars : mesh.scalars) {
-      request.scalars.push_back({scalars.name, scalars.values});
-    }
-  }
-  check_format(request, path);
-  check_parts(request.format, given.draco == 1);
-  return request;
-}
 
 difmesh::DracoOptions to_draco(const dif_mesh_write_options& given) {
   difmesh::DracoOptions draco;
@@ -114,47 +45,43 @@ difmesh::ColourBy to_colour(const dif_mesh_write_options& given) {
   return colour;
 }
 
-difmesh::WriteGltfOptions to_gltf(Request request) {
-  const dif_mesh_write_options& given = request.given;
-  difmesh::WriteGltfOptions gltf;
-  gltf.normals = request.normals;
-  gltf.edge_ids = request.edge_ids;
-  gltf.scalars = std::move(request.scalars);
-  if (given.colour_by != nullptr) {
-    gltf.colour = to_colour(given);
-  }
-  if (given.draco == 1) {
-    gltf.draco = to_draco(given);
-  }
-  gltf.up = capi::to_choice(given.up, gltf.up, kUpAxes, "up");
-  gltf.metres_per_unit = given.metres_per_unit;
-  if (capi::to_bool(given.has_local_origin, "has_local_origin")) {
-    gltf.local_origin = capi::to_vec(given.local_origin);
-  }
-  gltf.most_vertices = given.most_vertices;
-  if (given.name != nullptr) {
-    gltf.name = given.name;
-  }
-  gltf.binary = request.format == MeshFormat::glb;
-  return gltf;
+/// Draco's options are for formats that are always compressed too, without `draco`.
+bool wants_draco(const dif_mesh_write_options& given, const char* path,
+                 const std::string& extension) {
+  const difmesh::MeshFormat* const format =
+      extension.empty() ? difmesh::mesh_format_of(path) : difmesh::find_mesh_format(extension);
+  const bool is_always = format != nullptr && format->compression == difmesh::Compression::always;
+  return capi::to_bool(given.draco, "draco") || is_always;
 }
 
-difmesh::MeshFileReport write(const char* path, const difmesh::Mesh& mesh, Request request) {
-  if (is_gltf(request.format)) {
-    return write_gltf(path, mesh, to_gltf(std::move(request)));
+difmesh::WriteMeshOptions to_options(const char* path, const dif_mesh_write_options* options) {
+  dif_mesh_write_options defaults{};
+  dif_mesh_write_options_init(&defaults, sizeof defaults);
+  const dif_mesh_write_options given = capi::read_struct(options, defaults, "options");
+  capi::require_zero(given.reserved, "options");
+  difmesh::WriteMeshOptions result;
+  if (given.format != DIF_MESH_FORMAT_BY_EXTENSION) {
+    result.format = capi::to_choice(given.format, kFormats.front(), kFormats, "format");
   }
-  if (request.format == MeshFormat::drc) {
-    return write_drc(path, mesh,
-                     {.normals = request.normals,
-                      .edge_ids = request.edge_ids,
-                      .scalars = std::move(request.scalars),
-                      .draco = to_draco(request.given)});
+  result.normals = capi::to_bool(given.normals, "normals");
+  result.edge_ids = capi::to_bool(given.edge_ids, "edge_ids");
+  result.scalars = capi::to_bool(given.scalars, "scalars");
+  if (given.colour_by != nullptr) {
+    result.colour = to_colour(given);
   }
-  return write_mesh(path, mesh,
-                    {.format = request.format,
-                     .normals = request.normals,
-                     .edge_ids = request.edge_ids,
-                     .scalars = std::move(request.scalars)});
+  if (wants_draco(given, path, result.format)) {
+    result.draco = to_draco(given);
+  }
+  result.up = capi::to_choice(given.up, result.up, kUpAxes, "up");
+  result.metres_per_unit = given.metres_per_unit;
+  if (capi::to_bool(given.has_local_origin, "has_local_origin")) {
+    result.local_origin = capi::to_vec(given.local_origin);
+  }
+  result.most_vertices = given.most_vertices;
+  if (given.name != nullptr) {
+    result.name = given.name;
+  }
+  return result;
 }
 
 dif_mesh_write_report to_report(const difmesh::MeshFileReport& report) {
@@ -168,14 +95,6 @@ dif_mesh_write_report to_report(const difmesh::MeshFileReport& report) {
   result.collapsed_triangles = report.collapsed_triangles;
   std::copy(report.local_origin.begin(), report.local_origin.end(), result.local_origin);
   return result;
-}
-
-dif_mesh to_mesh(difmesh::ScalarMesh read) {
-  dif_mesh mesh{.mesh = std::move(read.mesh), .warnings = std::move(read.warnings)};
-  for (VertexScalars& scalars : read.scalars) {
-    mesh.scalars.push_back({std::move(scalars.name), std::move(scalars.values)});
-  }
-  return mesh;
 }
 
 }  // namespace
@@ -194,8 +113,7 @@ dif_status dif_mesh_write_reported(const dif_mesh* mesh, const char* path,
     }
     const char* name = &capi::required(path, "path");
     const dif_mesh& source = capi::required(mesh, "mesh");
-    const difmesh::MeshFileReport facts =
-        write(name, source.mesh, to_request(source, name, options));
+    const difmesh::MeshFileReport facts = write_mesh(name, source.mesh, to_options(name, options));
     if (report != nullptr) {
       capi::write_output(report, to_report(facts), "report");
     }
@@ -216,7 +134,7 @@ dif_status dif_mesh_read_with(const char* path, const dif_mesh_read_options* opt
     capi::require_zero(given.reserved, "options");
     const difmesh::ReadMeshOptions chosen{.outside_files =
                                               capi::to_bool(given.outside_files, "outside_files")};
-    check_parts(difmesh::mesh_format_of(name), false);
-    handle = new dif_mesh(to_mesh(difmesh::read_scalar_mesh(name, chosen)));
+    difmesh::MeshFile read = difmesh::read_mesh_file(name, chosen);
+    handle = new dif_mesh{.mesh = std::move(read.mesh), .warnings = std::move(read.warnings)};
   });
 }

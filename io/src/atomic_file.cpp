@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
-#include <cstring>
 #include <random>
 #include <string>
 #include <system_error>
@@ -19,8 +17,6 @@
 namespace difmesh::detail {
 namespace {
 
-constexpr std::size_t kBufferSize = std::size_t{1} << 18;
-constexpr std::size_t kLongestNumber = 32;
 constexpr int kMostLinks = 40;  // as many as Linux follows
 
 /// Names of streams that are already open. They may lead to regular files, which must be appended
@@ -46,10 +42,88 @@ std::filesystem::path behind_links(std::filesystem::path path) {
   return path;
 }
 
+[[noreturn]] void fail_for(const std::filesystem::path& shown, int error) {
+  throw Error(ErrorCode::file_write,
+              "cannot write " + quoted(shown) + ": " + std::generic_category().message(error));
+}
+
+void write_all(int descriptor, const char* data, std::size_t bytes,
+               const std::filesystem::path& shown) {
+  for (std::size_t done = 0; done < bytes;) {
+    const ::ssize_t written = ::write(descriptor, data + done, bytes - done);
+    if (written < 0 && errno != EINTR) {
+      fail_for(shown, errno);
+    }
+    done += written > 0 ? static_cast<std::size_t>(written) : 0;
+  }
+}
+
+/// A new file with a name like `name` that no other has, put into `path`.
+/// \return its descriptor, or -1 with errno
+int open_new(const std::filesystem::path& folder, const std::string& name, int access,
+             std::filesystem::path& path) {
+  // Not mkstemp(): its files are readable by their owner only, whatever the umask says.
+  std::random_device random;
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    std::string hidden = ".";
+    hidden += name.substr(0, 200);
+    hidden += '.';
+    hidden += std::to_string(random());
+    hidden += ".part";
+    std::filesystem::path tried = folder / hidden;
+    const int descriptor = ::open(tried.c_str(), access | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor >= 0) {
+      path = std::move(tried);  // cannot fail, or the file would be left behind
+    }
+    if (descriptor >= 0 || errno != EEXIST) {
+      return descriptor;
+    }
+  }
+  return -1;
+}
+
 }  // namespace
 
+SpoolFile::~SpoolFile() {
+  if (descriptor_ >= 0) {
+    ::close(descriptor_);
+  }
+}
+
+void SpoolFile::open() {
+  std::filesystem::path path;
+  descriptor_ = open_new(folder_, shown_.filename().string(), O_RDWR, path);
+  if (descriptor_ < 0 || ::unlink(path.c_str()) != 0) {
+    fail_for(shown_, errno);
+  }
+}
+
+void SpoolFile::drain(const char* data, std::size_t bytes) {
+  if (descriptor_ < 0) {
+    open();
+  }
+  write_all(descriptor_, data, bytes, shown_);
+}
+
+void SpoolFile::copy_to(ByteOutput& output) {
+  if (descriptor_ < 0) {
+    output.write(waiting());
+    return;
+  }
+  flush();
+  std::vector<char> piece(kBufferSize);
+  for (std::int64_t done = 0; done < size();) {
+    const ::ssize_t read = ::pread(descriptor_, piece.data(), piece.size(), done);
+    if (read == 0 || (read < 0 && errno != EINTR)) {
+      fail_for(shown_, read == 0 ? EIO : errno);
+    }
+    output.write(piece.data(), read > 0 ? static_cast<std::size_t>(read) : 0);
+    done += std::max<::ssize_t>(read, 0);
+  }
+}
+
 AtomicFile::AtomicFile(const std::filesystem::path& target)
-    : shown_(target), target_(behind_links(target)), buffer_(kBufferSize) {
+    : shown_(target), target_(behind_links(target)) {
   struct stat status {};
   const int obstacle = ::stat(shown_.c_str(), &status) == 0 ? 0 : errno;
   const bool exists = obstacle == 0;
@@ -93,51 +167,18 @@ void AtomicFile::open_direct() {
 }
 
 void AtomicFile::open_temporary() {
-  // Not mkstemp(): its files are readable by their owner only, whatever the umask says.
-  std::random_device random;
-  for (int attempt = 0; attempt < 100; ++attempt) {
-    std::string name = ".";
-    name += target_.filename().string().substr(0, 200);
-    name += '.';
-    name += std::to_string(random());
-    name += ".part";
-    std::filesystem::path path = target_.parent_path() / name;
-    descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor_ >= 0) {
-      temporary_ = std::move(path);  // cannot fail, or the file would be left behind
-      return;
-    }
-    if (errno != EEXIST) {
-      fail(errno);
-    }
-  }
-  fail(EEXIST);
-}
-
-void AtomicFile::write(const void* data, std::size_t bytes) {
-  const auto* from = static_cast<const char*>(data);
-  while (bytes > 0) {
-    make_room(1);
-    const std::size_t part = std::min(bytes, buffer_.size() - used_);
-    std::memcpy(buffer_.data() + used_, from, part);
-    used_ += part;
-    from += part;
-    bytes -= part;
+  descriptor_ = open_new(target_.parent_path(), target_.filename().string(), O_WRONLY, temporary_);
+  if (descriptor_ < 0) {
+    fail(errno);
   }
 }
 
-void AtomicFile::write_number(double number) {
-  make_room(kLongestNumber);
-  const auto result =
-      std::to_chars(buffer_.data() + used_, buffer_.data() + buffer_.size(), number);
-  used_ = static_cast<std::size_t>(result.ptr - buffer_.data());
-}
-
-void AtomicFile::write_number(std::uint64_t number) {
-  make_room(kLongestNumber);
-  const auto result =
-      std::to_chars(buffer_.data() + used_, buffer_.data() + buffer_.size(), number);
-  used_ = static_cast<std::size_t>(result.ptr - buffer_.data());
+std::unique_ptr<SpoolFile> AtomicFile::spool() const {
+  std::error_code error;
+  const bool is_direct = temporary_.empty();
+  const std::filesystem::path folder =
+      is_direct ? std::filesystem::temp_directory_path(error) : target_.parent_path();
+  return std::make_unique<SpoolFile>(folder, shown_);
 }
 
 void AtomicFile::commit() {
@@ -154,27 +195,12 @@ void AtomicFile::commit() {
   }
 }
 
-void AtomicFile::make_room(std::size_t bytes) {
-  if (buffer_.size() - used_ < bytes) {
-    flush();
-  }
-}
-
-void AtomicFile::flush() {
-  for (std::size_t done = 0; done < used_;) {
-    const ::ssize_t written = ::write(descriptor_, buffer_.data() + done, used_ - done);
-    if (written < 0 && errno != EINTR) {
-      fail(errno);
-    }
-    done += written > 0 ? static_cast<std::size_t>(written) : 0;
-  }
-  flushed_ += static_cast<std::int64_t>(used_);
-  used_ = 0;
+void AtomicFile::drain(const char* data, std::size_t bytes) {
+  write_all(descriptor_, data, bytes, shown_);
 }
 
 void AtomicFile::fail(int error) const {
-  throw Error(ErrorCode::file_write,
-              "cannot write " + quoted(shown_) + ": " + std::generic_category().message(error));
+  fail_for(shown_, error);
 }
 
 }  // namespace difmesh::detail

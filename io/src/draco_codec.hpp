@@ -10,12 +10,20 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "difmesh/io/draco_file.hpp"
+#include "difmesh/io/draco_options.hpp"
 #include "packed_surface.hpp"
 
 namespace difmesh::detail {
+
+/// What the build lacks without Draco: empty with it.
+#ifdef DIFMESH_IO_HAS_DRACO
+inline constexpr std::string_view kDracoMissing = {};
+#else
+inline constexpr std::string_view kDracoMissing = "Draco (DIFMESH_WITH_DRACO)";
+#endif
 
 struct EncodedDraco {
   std::vector<char> bytes;

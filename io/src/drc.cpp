@@ -10,21 +10,17 @@
 
 #include "atomic_file.hpp"
 #include "difmesh/error.hpp"
-#include "difmesh/float_environment.hpp"
-#include "difmesh/io/draco_file.hpp"
 #include "draco_codec.hpp"
+#include "format_part.hpp"
 #include "input_file.hpp"
-#include "memory.hpp"
 #include "mesh_check.hpp"
 #include "omissions.hpp"
 #include "packed_surface.hpp"
 #include "text.hpp"
 #include "used_part.hpp"
 
-namespace difmesh {
+namespace difmesh::detail {
 namespace {
-
-using namespace detail;
 
 double largest_coordinate(const Mesh& mesh) {
   double largest = 0.0;
@@ -72,7 +68,7 @@ class DrcReader {
   DrcReader(const std::filesystem::path& path, DecodedDraco decoded)
       : path_(path), decoded_(std::move(decoded)) {}
 
-  ScalarMesh read() {
+  MeshFile read() {
     mesh_.mesh.triangles = std::move(decoded_.triangles);
     for (const DecodedAttribute& attribute : decoded_.attributes) {
       add(attribute);
@@ -98,7 +94,7 @@ class DrcReader {
     } else if (attribute.kind == DracoKind::generic && attribute.components == 1 &&
                !attribute.name.empty()) {
       if (is_finite(attribute, "the attribute " + in_quotes(attribute.name))) {
-        mesh_.scalars.push_back({attribute.name, attribute.values});
+        mesh_.mesh.scalars.push_back({attribute.name, attribute.values});
       }
     }
   }
@@ -127,21 +123,20 @@ class DrcReader {
 
   const std::filesystem::path& path_;
   DecodedDraco decoded_;
-  ScalarMesh mesh_;
+  MeshFile mesh_;
   Omissions omissions_;
   bool with_positions_ = false;
 };
 
 MeshFileReport write_used(const std::filesystem::path& path, const Mesh& mesh,
-                          const WriteDrcOptions& options) {
-  const int bits = position_bits_of(mesh, options.draco);
+                          const WriteMeshOptions& options) {
+  const DracoOptions draco = options.draco.value_or(DracoOptions{});
+  const int bits = position_bits_of(mesh, draco);
   const Vec3 origin = drc_origin(mesh, bits);
-  const WriteGltfOptions content{.normals = options.normals && !mesh.normals.empty(),
-                                 .edge_ids = options.edge_ids,
-                                 .scalars = options.scalars};
+  WriteMeshOptions content = options;
+  content.normals = options.normals && !mesh.normals.empty();
   const PackedSurface surface = pack({path, mesh, content, origin});
-  const EncodedDraco encoded =
-      encode_draco(path, surface.primitives.front(), options.draco, bits, origin);
+  const EncodedDraco encoded = encode_draco(path, surface.primitives.front(), draco, bits, origin);
   AtomicFile file(path);
   file.write(encoded.bytes.data(), encoded.bytes.size());
   file.commit();
@@ -154,28 +149,36 @@ MeshFileReport write_used(const std::filesystem::path& path, const Mesh& mesh,
           .local_origin = origin};
 }
 
-}  // namespace
-
 MeshFileReport write_drc(const std::filesystem::path& path, const Mesh& mesh,
-                         const WriteDrcOptions& options) {
-  const DefaultFloatEnvironment environment;
-  check_mesh(path, mesh);
-  check_scalars(path, mesh, options.scalars);
-  check_draco(path, options.draco);
+                         const WriteMeshOptions& options) {
+  check_draco(path, options.draco.value_or(DracoOptions{}));
   if (mesh.triangles.empty()) {
     fail_write(ErrorCode::invalid_value, path, "the mesh has no triangles to compress");
   }
-  if (std::optional<ScalarMesh> part = used_part(mesh, options.scalars)) {
-    WriteDrcOptions for_part = options;
-    for_part.scalars = std::move(part->scalars);
-    return write_used(path, part->mesh, for_part);
-  }
-  return write_used(path, mesh, options);
+  const std::optional<Mesh> part = used_part(mesh);
+  return write_used(path, part ? *part : mesh, options);
 }
 
-namespace detail {
+MeshFile read_drc(const InputFile& file) {
+  const Array<char> bytes = file.read_text(0, file.size());
+  return decode_drc(file.path(), bytes);
+}
 
-ScalarMesh decode_drc(const std::filesystem::path& path, std::span<const char> bytes) {
+}  // namespace
+
+constinit const FormatPart drc_format{
+    .facts = {.extension = ".drc",
+              .name = "Draco",
+              .normals = true,
+              .edge_ids = true,
+              .scalars = true,
+              .compression = Compression::always,
+              .needs = kDracoMissing},
+    .read = read_open<read_drc>,
+    .write = write_drc,
+};
+
+MeshFile decode_drc(const std::filesystem::path& path, std::span<const char> bytes) {
   return DrcReader(path, decode_draco(path, bytes)).read();
 }
 
@@ -197,15 +200,4 @@ Array<std::uint64_t> joined_digits(const std::filesystem::path& path, const Arra
   return numbers;
 }
 
-}  // namespace detail
-
-ScalarMesh read_drc(const std::filesystem::path& path) {
-  const DefaultFloatEnvironment environment;
-  return naming_file(path, [&] {
-    const InputFile file(path);
-    const Array<char> bytes = file.read_text(0, file.size());
-    return decode_drc(path, bytes);
-  });
-}
-
-}  // namespace difmesh
+}  // namespace difmesh::detail

@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <span>
 
-#include "difmesh/io/vertex_scalars.hpp"
+#include "difmesh/io/mesh_reading.hpp"
 
 namespace difmesh::detail {
 
 /// The mesh in the bytes of a .drc file. \throw Error file_format; `path` is for messages
-[[nodiscard]] ScalarMesh decode_drc(const std::filesystem::path& path, std::span<const char> bytes);
+[[nodiscard]] MeshFile decode_drc(const std::filesystem::path& path, std::span<const char> bytes);
 
 /// Whole numbers from `count` digits each to the base 65536, lowest first.
 /// \throw Error file_format if a digit is none

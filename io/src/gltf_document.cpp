@@ -89,7 +89,7 @@ void write_padding(const GltfDocument::Sink& sink, std::uint64_t bytes) {
 }  // namespace
 
 GltfDocument::GltfDocument(const std::filesystem::path& path, PackedSurface surface,
-                           const WriteGltfOptions& options, int position_bits)
+                           const WriteMeshOptions& options, int position_bits)
     : surface_(std::move(surface)) {
   json_["asset"] = {{"version", "2.0"}, {"generator", "difmesh " DIFMESH_VERSION}};
   if (options.draco) {
@@ -124,7 +124,7 @@ GltfDocument::GltfDocument(const std::filesystem::path& path, PackedSurface surf
 
 /// The root node turns and scales; the node below moves. Two, because the translation must be the
 /// local origin as it is, in float64.
-void GltfDocument::add_nodes(const WriteGltfOptions& options) {
+void GltfDocument::add_nodes(const WriteMeshOptions& options) {
   const bool has_root = options.up == UpAxis::z || options.metres_per_unit != 1.0;
   json_["scene"] = 0;
   json_["scenes"] = Json::array({{{"nodes", {0}}}});
@@ -151,12 +151,11 @@ void GltfDocument::add_nodes(const WriteGltfOptions& options) {
   json_["nodes"].push_back(std::move(node));
 }
 
-Json GltfDocument::mesh_extras(const WriteGltfOptions& options) const {
+Json GltfDocument::mesh_extras(const WriteMeshOptions& options) const {
   Json extras = Json::object();
-  for (std::size_t i = 0; i < options.scalars.size(); ++i) {
-    extras["scalars"][semantic_of(options.scalars[i].name)] = {{"name", options.scalars[i].name},
-                                                               {"low", surface_.ranges[i][0]},
-                                                               {"high", surface_.ranges[i][1]}};
+  for (const ScalarRange& range : surface_.ranges) {
+    extras["scalars"][semantic_of(range.name)] = {
+        {"name", range.name}, {"low", range.ends[0]}, {"high", range.ends[1]}};
   }
   if (options.colour) {
     extras["COLOR_0"] = {{"attribute", semantic_of(options.colour->scalars)},

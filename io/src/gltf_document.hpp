@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "difmesh/io/mesh_file_report.hpp"
 #include "draco_codec.hpp"
 #include "packed_surface.hpp"
 
@@ -22,7 +23,7 @@ class GltfDocument {
   using Sink = std::function<void(const void* data, std::size_t bytes)>;
 
   GltfDocument(const std::filesystem::path& path, PackedSurface surface,
-               const WriteGltfOptions& options, int position_bits);
+               const WriteMeshOptions& options, int position_bits);
 
   [[nodiscard]] std::uint64_t data_bytes() const { return data_bytes_; }
   /// The text; `uri` holds the data where they are not in a .glb.
@@ -38,8 +39,8 @@ class GltfDocument {
   int add_view(std::uint64_t bytes, int target);
   int add_accessor(Json accessor);
   Json attribute_accessor(const PackedAttribute& attribute, std::size_t vertices) const;
-  void add_nodes(const WriteGltfOptions& options);
-  Json mesh_extras(const WriteGltfOptions& options) const;
+  void add_nodes(const WriteMeshOptions& options);
+  Json mesh_extras(const WriteMeshOptions& options) const;
 
   PackedSurface surface_;
   std::vector<EncodedDraco> compressed_;  ///< one per primitive, or none

@@ -1,41 +1,35 @@
 // In place of gltf_*.cpp where the library is built without glTF.
 
 #include "difmesh/error.hpp"
-#include "difmesh/io/gltf_file.hpp"
-#include "gltf_write.hpp"
-#include "mesh_check.hpp"
-#include "text.hpp"
+#include "difmesh/io/glb.hpp"
+#include "format_part.hpp"
 
 namespace difmesh {
 namespace {
 
-constexpr const char* kMatter = "difmesh was built without glTF (DIFMESH_WITH_GLTF)";
+constexpr const char* kNeeds = "glTF (DIFMESH_WITH_GLTF)";
+
+[[noreturn]] void fail() {
+  throw Error(ErrorCode::unsupported, std::string("difmesh was built without ") + kNeeds);
+}
 
 }  // namespace
 
 namespace detail {
 
-MeshFileReport write_gltf_as(const std::filesystem::path& path, const Mesh&,
-                             const WriteGltfOptions&, bool) {
-  fail_write(ErrorCode::invalid_argument, path, kMatter);
-}
+constinit const FormatPart glb_format{
+    .facts = {.extension = ".glb", .name = "glTF", .needs = kNeeds}};
+constinit const FormatPart gltf_format{
+    .facts = {.extension = ".gltf", .name = "glTF", .needs = kNeeds}};
 
 }  // namespace detail
 
-MeshFileReport write_gltf(const std::filesystem::path& path, const Mesh&, const WriteGltfOptions&) {
-  detail::fail_write(ErrorCode::invalid_argument, path, kMatter);
+std::vector<char> encode_glb(const Mesh&, const WriteMeshOptions&, MeshFileReport*) {
+  fail();
 }
 
-std::vector<char> encode_glb(const Mesh&, const WriteGltfOptions&, MeshFileReport*) {
-  throw Error(ErrorCode::invalid_argument, kMatter);
-}
-
-std::string encode_glb_base64(const Mesh&, const WriteGltfOptions&) {
-  throw Error(ErrorCode::invalid_argument, kMatter);
-}
-
-ScalarMesh read_gltf(const std::filesystem::path& path, const ReadMeshOptions&) {
-  throw Error(ErrorCode::file_format, detail::quoted(path) + ": " + kMatter);
+std::string encode_glb_base64(const Mesh&, const WriteMeshOptions&) {
+  fail();
 }
 
 }  // namespace difmesh

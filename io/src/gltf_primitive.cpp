@@ -9,7 +9,6 @@
 #include "draco_codec.hpp"
 #include "drc.hpp"
 #include "mesh_check.hpp"
-#include "mesh_formats.hpp"
 #include "text.hpp"
 
 namespace difmesh::detail {
@@ -114,7 +113,7 @@ class PrimitiveReader {
         surface_.whole_index = joined_digits(source_.path(), *numbers(name, view), 2);
       } else if (name[0] == '_' && view.components == 1) {
         if (std::optional<Array<double>> values = numbers(name, view)) {
-          surface_.content.scalars.push_back({lower_case(name.substr(1)), std::move(*values)});
+          surface_.content.mesh.scalars.push_back({lower_case(name.substr(1)), std::move(*values)});
         }
       }
     }
@@ -266,7 +265,7 @@ void join(GltfSurface& surface) {
   gather(mesh.positions, chosen);
   gather(mesh.normals, chosen);
   gather(mesh.edge_ids, chosen);
-  for (VertexScalars& scalars : surface.content.scalars) {
+  for (VertexScalar& scalars : surface.content.mesh.scalars) {
     gather(scalars.values, chosen);
   }
   for (Triangle& t : mesh.triangles) {
@@ -292,10 +291,10 @@ void append_or_drop(Array<T>& to, const Array<T>& from) {
   }
 }
 
-void append_scalars(std::vector<VertexScalars>& to, const std::vector<VertexScalars>& from) {
-  std::vector<VertexScalars> kept;
-  for (VertexScalars& scalars : to) {
-    for (const VertexScalars& other : from) {
+void append_scalars(std::vector<VertexScalar>& to, const std::vector<VertexScalar>& from) {
+  std::vector<VertexScalar> kept;
+  for (VertexScalar& scalars : to) {
+    for (const VertexScalar& other : from) {
       if (other.name == scalars.name) {
         scalars.values.insert(scalars.values.end(), other.values.begin(), other.values.end());
         kept.push_back(std::move(scalars));
@@ -311,7 +310,7 @@ void append_scalars(std::vector<VertexScalars>& to, const std::vector<VertexScal
 std::uint64_t GltfSurface::bytes() const {
   const Mesh& mesh = content.mesh;
   return 24U * (mesh.positions.size() + mesh.normals.size()) + 8U * mesh.edge_ids.size() +
-         12U * mesh.triangles.size() + 8U * content.scalars.size() * mesh.positions.size();
+         12U * mesh.triangles.size() + 8U * mesh.scalars.size() * mesh.positions.size();
 }
 
 void Budget::take(const JsonPlace& place, std::uint64_t bytes) {
@@ -377,7 +376,7 @@ void append(GltfSurface& to, GltfSurface&& from, const std::filesystem::path& pa
   append_or_drop(mesh.normals, from.content.mesh.normals);
   append_or_drop(mesh.edge_ids, from.content.mesh.edge_ids);
   append_or_drop(to.whole_index, from.whole_index);
-  append_scalars(to.content.scalars, from.content.scalars);
+  append_scalars(mesh.scalars, from.content.mesh.scalars);
 }
 
 }  // namespace difmesh::detail

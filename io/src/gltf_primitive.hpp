@@ -4,14 +4,14 @@
 
 #include <cstdint>
 
-#include "difmesh/io/vertex_scalars.hpp"
+#include "difmesh/io/mesh_reading.hpp"
 #include "gltf_source.hpp"
 
 namespace difmesh::detail {
 
 /// A surface in the coordinates of its node. Arrays other than positions may be empty.
 struct GltfSurface {
-  ScalarMesh content;
+  MeshFile content;
   Array<std::uint64_t> whole_index;  ///< `_VERTEX`: the index in the mesh before it was split
 
   /// The memory that a copy takes.

@@ -8,8 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "difmesh/float_environment.hpp"
-#include "difmesh/io/gltf_file.hpp"
 #include "gltf_extensions.hpp"
 #include "gltf_primitive.hpp"
 #include "gltf_source.hpp"
@@ -17,8 +15,7 @@
 #include "memory.hpp"
 #include "text.hpp"
 
-namespace difmesh {
-namespace detail {
+namespace difmesh::detail {
 namespace {
 
 /// x -> linear x + shift.
@@ -82,7 +79,7 @@ std::array<Vec3, 3> rotation_of(const std::array<double, 4>& q) {
            {s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)}}};
 }
 
-/// The node that write_gltf() puts above the mesh where up is z or the unit no metre. Left out, the
+/// The node that write_mesh() puts above the mesh where up is z or the unit no metre. Left out, the
 /// mesh comes back in the coordinates that it was written from.
 bool is_our_frame(const JsonPlace& node) {
   if (!node.has("extras") || !node.at("extras").has("difmesh")) {
@@ -124,7 +121,7 @@ Affine transform_of(const JsonPlace& node) {
   return result;
 }
 
-void move(ScalarMesh& content, const Affine& transform, const JsonPlace& node) {
+void move(MeshFile& content, const Affine& transform, const JsonPlace& node) {
   for (Vec3& position : content.mesh.positions) {
     position = transform(position);
     if (!std::isfinite(position[0] + position[1] + position[2])) {
@@ -187,7 +184,7 @@ class SceneReader {
   explicit SceneReader(GltfSource& source)
       : source_(source), budget_(source), seen_(source.count("nodes"), false) {}
 
-  ScalarMesh read() {
+  MeshFile read() {
     check_extensions();
     push_roots();
     while (!stack_.empty()) {
@@ -317,32 +314,26 @@ class SceneReader {
   bool with_mesh_ = false;
 };
 
-ScalarMesh read_scene(GltfSource& source) {
+MeshFile read_scene(GltfSource& source) {
   return SceneReader(source).read();
 }
 
 }  // namespace
 
-ScalarMesh decode_gltf(const std::filesystem::path& path, Array<char> bytes) {
+MeshFile decode_gltf(const std::filesystem::path& path, Array<char> bytes) {
   GltfSource source(path, std::move(bytes), OtherFiles::none);
   return read_scene(source);
 }
 
-}  // namespace detail
-
-ScalarMesh read_gltf(const std::filesystem::path& path, const ReadMeshOptions& options) {
-  const DefaultFloatEnvironment environment;
-  return detail::naming_file(path, [&] {
-    Array<char> bytes;
-    {
-      const detail::InputFile file(path);
-      bytes = file.read_text(0, file.size());
-    }
-    detail::GltfSource source(
-        path, std::move(bytes),
-        options.outside_files ? detail::OtherFiles::anywhere : detail::OtherFiles::in_folder);
-    return detail::read_scene(source);
-  });
+MeshFile read_gltf(const std::filesystem::path& path, const ReadMeshOptions& options) {
+  Array<char> bytes;
+  {
+    const InputFile file(path);
+    bytes = file.read_text(0, file.size());
+  }
+  GltfSource source(path, std::move(bytes),
+                    options.outside_files ? OtherFiles::anywhere : OtherFiles::in_folder);
+  return read_scene(source);
 }
 
-}  // namespace difmesh
+}  // namespace difmesh::detail

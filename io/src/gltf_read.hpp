@@ -3,11 +3,13 @@
 
 #include <filesystem>
 
-#include "difmesh/io/vertex_scalars.hpp"
+#include "difmesh/io/mesh_reading.hpp"
 
 namespace difmesh::detail {
 
-/// read_gltf() of bytes; no other files are opened. `path` is for messages.
-[[nodiscard]] ScalarMesh decode_gltf(const std::filesystem::path& path, Array<char> bytes);
+[[nodiscard]] MeshFile read_gltf(const std::filesystem::path& path, const ReadMeshOptions& options);
+
+/// The same of bytes; no other files are opened. `path` is for messages.
+[[nodiscard]] MeshFile decode_gltf(const std::filesystem::path& path, Array<char> bytes);
 
 }  // namespace difmesh::detail

@@ -6,7 +6,9 @@
 
 #include "gltf_write.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -18,8 +20,11 @@
 #include "base64.hpp"
 #include "difmesh/error.hpp"
 #include "difmesh/float_environment.hpp"
+#include "difmesh/io/glb.hpp"
+#include "format_part.hpp"
 #include "gltf_bytes.hpp"
 #include "gltf_document.hpp"
+#include "gltf_read.hpp"
 #include "mesh_check.hpp"
 #include "text.hpp"
 #include "used_part.hpp"
@@ -33,9 +38,7 @@ constexpr std::uint64_t kMostBytes = std::numeric_limits<std::uint32_t>::max();
 using Sink = std::function<void(const void* data, std::size_t bytes)>;
 
 void check_options(const std::filesystem::path& path, const Mesh& mesh,
-                   const WriteGltfOptions& options) {
-  check_mesh(path, mesh);
-  check_scalars(path, mesh, options.scalars);
+                   const WriteMeshOptions& options) {
   if (mesh.triangles.empty()) {
     fail_write(ErrorCode::invalid_value, path,
                "the mesh has no triangles, and glTF holds no empty mesh");
@@ -59,11 +62,10 @@ void check_options(const std::filesystem::path& path, const Mesh& mesh,
   if (!options.colour) {
     return;
   }
-  bool known = false;
-  for (const VertexScalars& scalars : options.scalars) {
-    known = known || scalars.name == options.colour->scalars;
-  }
-  if (!known) {
+  const bool is_known = std::ranges::any_of(
+      written_scalars(mesh, options),
+      [&](const VertexScalar& scalar) { return scalar.name == options.colour->scalars; });
+  if (!is_known) {
     fail_write(
         ErrorCode::invalid_argument, path,
         "colours by " + in_quotes(options.colour->scalars) + ", which is none of the scalars");
@@ -77,10 +79,10 @@ void check_options(const std::filesystem::path& path, const Mesh& mesh,
 }
 
 /// A lower bound, from counts alone: before memory is taken for what cannot be written.
-std::uint64_t least_data_bytes(const Mesh& mesh, const WriteGltfOptions& options) {
-  const std::uint64_t per_vertex = 12U + (options.normals ? 12U : 0U) +
-                                   4U * options.scalars.size() + (options.colour ? 8U : 0U) +
-                                   (options.edge_ids && !mesh.edge_ids.empty() ? 8U : 0U);
+std::uint64_t least_data_bytes(const Mesh& mesh, const WriteMeshOptions& options) {
+  const std::uint64_t per_vertex =
+      12U + (options.normals ? 12U : 0U) + 4U * written_scalars(mesh, options).size() +
+      (options.colour ? 8U : 0U) + (options.edge_ids && !mesh.edge_ids.empty() ? 8U : 0U);
   const std::uint64_t per_index = mesh.positions.size() > kMostShortIndices ? 4U : 2U;
   return mesh.positions.size() * per_vertex + 3U * mesh.triangles.size() * per_index;
 }
@@ -120,7 +122,7 @@ void put_text(const Sink& sink, const std::filesystem::path& path, const GltfDoc
 }
 
 GltfDocument describe_used(const std::filesystem::path& path, const Mesh& mesh,
-                           const WriteGltfOptions& options) {
+                           const WriteMeshOptions& options) {
   if (!options.draco) {
     (void)glb_size(path, 0, least_data_bytes(mesh, options));
   }
@@ -131,17 +133,49 @@ GltfDocument describe_used(const std::filesystem::path& path, const Mesh& mesh,
 }
 
 GltfDocument describe(const std::filesystem::path& path, const Mesh& mesh,
-                      const WriteGltfOptions& options) {
+                      const WriteMeshOptions& options) {
   check_options(path, mesh, options);
-  if (std::optional<ScalarMesh> part = used_part(mesh, options.scalars)) {
-    WriteGltfOptions for_part = options;
-    for_part.scalars = std::move(part->scalars);
-    return describe_used(path, part->mesh, for_part);
-  }
-  return describe_used(path, mesh, options);
+  const std::optional<Mesh> part = used_part(mesh);
+  return describe_used(path, part ? *part : mesh, options);
+}
+
+MeshFileReport write_gltf(const std::filesystem::path& path, const Mesh& mesh,
+                          const WriteMeshOptions& options, bool is_binary) {
+  const GltfDocument document = describe(path, mesh, options);
+  AtomicFile file(path);
+  MeshFileReport report = document.report();
+  const Sink sink = [&](const void* data, std::size_t bytes) {
+    file.write(data, bytes);
+    report.bytes += static_cast<std::int64_t>(bytes);
+  };
+  is_binary ? put_glb(sink, path, document) : put_text(sink, path, document);
+  file.commit();
+  return report;
+}
+
+template <bool kIsBinary>
+MeshFileReport write_as(const std::filesystem::path& path, const Mesh& mesh,
+                        const WriteMeshOptions& options) {
+  return write_gltf(path, mesh, options, kIsBinary);
+}
+
+constexpr MeshFormat gltf_facts(std::string_view extension) {
+  return {.extension = extension,
+          .name = "glTF",
+          .normals = true,
+          .edge_ids = true,
+          .scalars = true,
+          .colours = true,
+          .scene = true,
+          .compression = Compression::optional};
 }
 
 }  // namespace
+
+constinit const FormatPart glb_format{
+    .facts = gltf_facts(".glb"), .read = read_gltf, .write = write_as<true>};
+constinit const FormatPart gltf_format{
+    .facts = gltf_facts(".gltf"), .read = read_gltf, .write = write_as<false>};
 
 std::uint64_t glb_size(const std::filesystem::path& path, std::uint64_t json_bytes,
                        std::uint64_t data_bytes) {
@@ -156,40 +190,14 @@ std::uint64_t glb_size(const std::filesystem::path& path, std::uint64_t json_byt
   return size;
 }
 
-MeshFileReport write_gltf_as(const std::filesystem::path& path, const Mesh& mesh,
-                             const WriteGltfOptions& options, bool binary) {
-  const GltfDocument document = describe(path, mesh, options);
-  AtomicFile file(path);
-  MeshFileReport report = document.report();
-  const Sink sink = [&](const void* data, std::size_t bytes) {
-    file.write(data, bytes);
-    report.bytes += static_cast<std::int64_t>(bytes);
-  };
-  binary ? put_glb(sink, path, document) : put_text(sink, path, document);
-  file.commit();
-  return report;
-}
-
 }  // namespace detail
 
-MeshFileReport write_gltf(const std::filesystem::path& path, const Mesh& mesh,
-                          const WriteGltfOptions& options) {
-  const DefaultFloatEnvironment environment;
-  if (options.binary) {
-    return detail::write_gltf_as(path, mesh, options, *options.binary);
-  }
-  const std::string extension = detail::extension_of(path);
-  if (extension != ".glb" && extension != ".gltf") {
-    detail::fail_write(ErrorCode::invalid_argument, path,
-                       "unknown extension '" + extension + "'; glTF has .glb and .gltf");
-  }
-  return detail::write_gltf_as(path, mesh, options, extension == ".glb");
-}
-
-std::vector<char> encode_glb(const Mesh& mesh, const WriteGltfOptions& options,
+std::vector<char> encode_glb(const Mesh& mesh, const WriteMeshOptions& options,
                              MeshFileReport* report) {
   const DefaultFloatEnvironment environment;
   const std::filesystem::path path = "glb in memory";
+  detail::check_portion(path, portion_of(mesh), {});
+  detail::check_scalars(path, detail::written_scalars(mesh, options));
   const detail::GltfDocument document = detail::describe(path, mesh, options);
   std::vector<char> bytes;
   const detail::Sink sink = [&](const void* data, std::size_t count) {
@@ -204,7 +212,7 @@ std::vector<char> encode_glb(const Mesh& mesh, const WriteGltfOptions& options,
   return bytes;
 }
 
-std::string encode_glb_base64(const Mesh& mesh, const WriteGltfOptions& options) {
+std::string encode_glb_base64(const Mesh& mesh, const WriteMeshOptions& options) {
   const std::vector<char> bytes = encode_glb(mesh, options);
   detail::Base64Encoder base64("", bytes.size());
   base64.add(bytes.data(), bytes.size());

@@ -4,13 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "difmesh/io/gltf_file.hpp"
-
 namespace difmesh::detail {
-
-/// write_gltf() whatever the extension.
-MeshFileReport write_gltf_as(const std::filesystem::path& path, const Mesh& mesh,
-                             const WriteGltfOptions& options, bool binary);
 
 /// The size of a .glb file whose JSON and data have so many bytes, padding and headers included.
 /// \throw Error too_large beyond what its 32-bit lengths can say

@@ -1,14 +1,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "difmesh/error.hpp"
+#include "format_part.hpp"
 #include "mesh_check.hpp"
-#include "mesh_formats.hpp"
 #include "polygons.hpp"
 #include "scanner.hpp"
 #include "text.hpp"
@@ -37,7 +39,7 @@ class ObjReader {
   ObjReader(const std::filesystem::path& path, std::string_view text)
       : path_(path), text_(text), lines_(path, text, {.comment = '#', .continued = true}) {}
 
-  ScalarMesh read() {
+  MeshFile read() {
     while (lines_.next_line()) {
       const std::string_view keyword = lines_.word();
       if (keyword == "v") {
@@ -151,11 +153,11 @@ class ObjReader {
     }
   }
 
-  ScalarMesh finish() {
+  MeshFile finish() {
     if (!normals_fit_ || mesh_.normals.size() != mesh_.positions.size()) {
       mesh_.normals.clear();
     }
-    ScalarMesh surface{std::move(mesh_), {}};
+    MeshFile surface{std::move(mesh_), {}};
     cut_polygons(path_, polygons_, surface);
     leave_out_not_finite(path_, surface,
                          [this](std::size_t v) { return place_of(not_finite_, v); });
@@ -190,42 +192,60 @@ class ObjReader {
   std::int64_t unknown_line_ = 0;
 };
 
-void write_line(AtomicFile& file, std::string_view keyword, const Vec3& vector) {
-  file.write(keyword);
-  write_vector(file, vector);
-  file.write("\n");
-}
-
-}  // namespace
-
-ScalarMesh read_obj(const InputFile& file) {
+MeshFile read_obj(const InputFile& file) {
   const Array<char> text = file.read_text(0, file.size());
   return ObjReader(file.path(), plain_text(file.path(), {text.data(), text.size()})).read();
 }
 
-void write_obj(AtomicFile& file, const Mesh& mesh, bool normals) {
-  file.write("# " + std::to_string(mesh.positions.size()) + " vertices, " +
-             std::to_string(mesh.triangles.size()) + " triangles\n");
-  for (const Vec3& position : mesh.positions) {
-    write_line(file, "v ", position);
-  }
-  if (normals) {
-    for (const Vec3& normal : mesh.normals) {
-      write_line(file, "vn ", normal);
-    }
-  }
-  for (const Triangle& t : mesh.triangles) {
-    file.write("f");
-    for (const std::uint32_t v : t) {
-      file.write(" ");
-      file.write_number(std::uint64_t{v} + 1);
-      if (normals) {
-        file.write("//");
-        file.write_number(std::uint64_t{v} + 1);
-      }
-    }
-    file.write("\n");
+void write_lines(ByteOutput& output, std::string_view keyword, std::span<const Vec3> vectors) {
+  for (const Vec3& vector : vectors) {
+    output.write(keyword);
+    output.write_vector(vector);
+    output.write("\n");
   }
 }
+
+class ObjEncoder : public MeshEncoder {
+ public:
+  explicit ObjEncoder(const EncoderRequest& request) : normals_(request.contents.normals) {}
+
+  [[nodiscard]] std::size_t vertex_sections() const override { return normals_ ? 2 : 1; }
+
+  void header(ByteOutput& output, const MeshCounts& counts) override {
+    output.write("# " + std::to_string(counts.vertices) + " vertices, " +
+                 std::to_string(counts.triangles) + " triangles\n");
+  }
+
+  void vertices(ByteOutput& output, std::size_t section, const MeshPortion& portion) override {
+    section == 0 ? write_lines(output, "v ", portion.positions)
+                 : write_lines(output, "vn ", portion.normals);
+  }
+
+  void triangles(ByteOutput& output, const MeshPortion& portion) override {
+    for (const Triangle& t : portion.triangles) {
+      output.write("f");
+      for (const std::uint32_t v : t) {
+        output.write(" ");
+        output.write_number(std::uint64_t{v} + 1);
+        if (normals_) {
+          output.write("//");
+          output.write_number(std::uint64_t{v} + 1);
+        }
+      }
+      output.write("\n");
+    }
+  }
+
+ private:
+  bool normals_;
+};
+
+}  // namespace
+
+constinit const FormatPart obj_format{
+    .facts = {.extension = ".obj", .name = "OBJ", .exact = true, .normals = true},
+    .read = read_open<read_obj>,
+    .encoder = make_encoder<ObjEncoder>,
+};
 
 }  // namespace difmesh::detail

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "difmesh/error.hpp"
+#include "format_part.hpp"
 #include "mesh_check.hpp"
-#include "mesh_formats.hpp"
 #include "polygons.hpp"
 #include "scanner.hpp"
 #include "text.hpp"
@@ -64,9 +64,9 @@ OffKind read_kind(Scanner& lines) {
 }
 
 /// Where triangles end up once all vertices are known.
-ScalarMesh finished(const std::filesystem::path& path, Mesh&& mesh, const Polygons& polygons,
-                    const std::vector<VertexLine>& not_finite) {
-  ScalarMesh surface{std::move(mesh), {}};
+MeshFile finished(const std::filesystem::path& path, Mesh&& mesh, const Polygons& polygons,
+                  const std::vector<VertexLine>& not_finite) {
+  MeshFile surface{std::move(mesh), {}};
   cut_polygons(path, polygons, surface);
   leave_out_not_finite(path, surface, [&](std::size_t v) { return place_of(not_finite, v); });
   return surface;
@@ -97,7 +97,7 @@ class OffReader {
         layout_(layout),
         lines_(path, text, {.comment = '#'}) {}
 
-  ScalarMesh read() {
+  MeshFile read() {
     if (!lines_.next_line()) {
       fail_format(path_, "an empty file");
     }
@@ -227,12 +227,12 @@ class OffReader {
     }
   }
 
-  ScalarMesh finish() {
+  MeshFile finish() {
     const bool has_more = !trimmed(lines_.rest()).empty() || lines_.next_line();
     if (layout_.whole && has_more) {
       lines_.fail("more than the faces");
     }
-    ScalarMesh surface = finished(path_, std::move(mesh_), polygons_, not_finite_);
+    MeshFile surface = finished(path_, std::move(mesh_), polygons_, not_finite_);
     if (has_more) {
       add_warning(surface.warnings, path_,
                   "skipped what follows the last face, from line " +
@@ -257,7 +257,7 @@ class BinaryOffReader {
   BinaryOffReader(const std::filesystem::path& path, std::string_view bytes, const OffKind& kind)
       : path_(path), bytes_(bytes), kind_(kind) {}
 
-  ScalarMesh read() {
+  MeshFile read() {
     const std::uint64_t vertices = count();
     const std::uint64_t faces = count();
     (void)word();  // the number of edges
@@ -343,9 +343,7 @@ class BinaryOffReader {
   std::vector<std::uint32_t> corners_;
 };
 
-}  // namespace
-
-ScalarMesh read_off(const InputFile& file) {
+MeshFile read_off(const InputFile& file) {
   const Array<char> bytes = file.read_text(0, file.size());
   const std::string_view text = plain_text(file.path(), {bytes.data(), bytes.size()});
   Scanner header(file.path(), text, {.comment = '#'});
@@ -367,26 +365,49 @@ ScalarMesh read_off(const InputFile& file) {
   return {};
 }
 
-void write_off(AtomicFile& file, const Mesh& mesh, bool normals) {
-  file.write(normals ? "NOFF\n" : "OFF\n");
-  file.write(std::to_string(mesh.positions.size()) + " " + std::to_string(mesh.triangles.size()) +
-             " 0\n");
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    write_vector(file, mesh.positions[v]);
-    if (normals) {
-      file.write(" ");
-      write_vector(file, mesh.normals[v]);
-    }
-    file.write("\n");
+class OffEncoder : public MeshEncoder {
+ public:
+  explicit OffEncoder(const EncoderRequest& request) : normals_(request.contents.normals) {}
+
+  [[nodiscard]] std::size_t vertex_sections() const override { return 1; }
+
+  void header(ByteOutput& output, const MeshCounts& counts) override {
+    output.write((normals_ ? "NOFF\n" : "OFF\n") + std::to_string(counts.vertices) + " " +
+                 std::to_string(counts.triangles) + " 0\n");
   }
-  for (const Triangle& t : mesh.triangles) {
-    file.write("3");
-    for (const std::uint32_t v : t) {
-      file.write(" ");
-      file.write_number(std::uint64_t{v});
+
+  void vertices(ByteOutput& output, std::size_t /*section*/, const MeshPortion& portion) override {
+    for (std::size_t v = 0; v < portion.positions.size(); ++v) {
+      output.write_vector(portion.positions[v]);
+      if (normals_) {
+        output.write(" ");
+        output.write_vector(portion.normals[v]);
+      }
+      output.write("\n");
     }
-    file.write("\n");
   }
-}
+
+  void triangles(ByteOutput& output, const MeshPortion& portion) override {
+    for (const Triangle& t : portion.triangles) {
+      output.write("3");
+      for (const std::uint32_t v : t) {
+        output.write(" ");
+        output.write_number(std::uint64_t{v});
+      }
+      output.write("\n");
+    }
+  }
+
+ private:
+  bool normals_;
+};
+
+}  // namespace
+
+constinit const FormatPart off_format{
+    .facts = {.extension = ".off", .name = "OFF", .exact = true, .normals = true},
+    .read = read_open<read_off>,
+    .encoder = make_encoder<OffEncoder>,
+};
 
 }  // namespace difmesh::detail

@@ -93,7 +93,10 @@ std::array<double, 2> colour_range_of(const ColourBy& by, const std::array<doubl
 class Packer {
  public:
   explicit Packer(const PackRequest& request)
-      : request_(request), mesh_(request.mesh), options_(request.options) {}
+      : request_(request),
+        mesh_(request.mesh),
+        options_(request.options),
+        scalars_(written_scalars(request.mesh, request.options)) {}
 
   PackedSurface pack() {
     surface_.origin = request_.origin;
@@ -101,12 +104,12 @@ class Packer {
     if (options_.normals) {
       normals_ = unit_normals(mesh_);
     }
-    for (const VertexScalars& scalars : options_.scalars) {
-      surface_.ranges.push_back(range_of(scalars.values));
+    for (const VertexScalar& scalar : scalars_) {
+      surface_.ranges.push_back({scalar.name, range_of(scalar.values)});
     }
     if (options_.colour) {
       surface_.colour_range =
-          colour_range_of(*options_.colour, surface_.ranges[coloured_scalars()]);
+          colour_range_of(*options_.colour, surface_.ranges[coloured_scalars()].ends);
     }
     if (mesh_.positions.size() <= static_cast<std::size_t>(options_.most_vertices)) {
       std::vector<std::uint32_t> all(mesh_.positions.size());
@@ -124,11 +127,8 @@ class Packer {
 
  private:
   [[nodiscard]] std::size_t coloured_scalars() const {
-    const auto& scalars = options_.scalars;
-    const auto found = std::find_if(scalars.begin(), scalars.end(), [&](const VertexScalars& s) {
-      return s.name == options_.colour->scalars;
-    });
-    return static_cast<std::size_t>(found - scalars.begin());
+    const auto found = std::ranges::find(scalars_, options_.colour->scalars, &VertexScalar::name);
+    return static_cast<std::size_t>(found - scalars_.begin());
   }
 
   /// float32 has numbers from 1e-38 to 3e38; a mesh beyond would come out flat or infinite.
@@ -162,11 +162,11 @@ class Packer {
     if (options_.normals) {
       attributes.push_back(float_vectors("NORMAL", vertices, normals_, {0, 0, 0}));
     }
-    for (const VertexScalars& scalars : options_.scalars) {
-      PackedAttribute attribute{.semantic = semantic_of(scalars.name), .scalars = scalars.name};
+    for (const VertexScalar& scalar : scalars_) {
+      PackedAttribute attribute{.semantic = semantic_of(scalar.name), .scalars = scalar.name};
       attribute.floats.reserve(vertices.size());
       for (const std::uint32_t v : vertices) {
-        attribute.floats.push_back(static_cast<float>(scalars.values[v]));
+        attribute.floats.push_back(static_cast<float>(scalar.values[v]));
       }
       attributes.push_back(std::move(attribute));
     }
@@ -214,7 +214,7 @@ class Packer {
 
   [[nodiscard]] PackedAttribute colours(const std::vector<std::uint32_t>& vertices) const {
     const ColourTable table(*options_.colour, *surface_.colour_range);
-    const Array<double>& values = options_.scalars[coloured_scalars()].values;
+    const Array<double>& values = scalars_[coloured_scalars()].values;
     PackedAttribute attribute{.semantic = "COLOR_0", .components = 4};
     attribute.words.reserve(4 * vertices.size());
     for (const std::uint32_t v : vertices) {
@@ -227,7 +227,8 @@ class Packer {
 
   const PackRequest& request_;
   const Mesh& mesh_;
-  const WriteGltfOptions& options_;
+  const WriteMeshOptions& options_;
+  std::span<const VertexScalar> scalars_;
   Array<Vec3> normals_;
   PackedSurface surface_;
 };
@@ -256,39 +257,6 @@ std::string semantic_of(const std::string& name) {
     semantic += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
   }
   return semantic;
-}
-
-void check_scalars(const std::filesystem::path& path, const Mesh& mesh,
-                   const std::vector<VertexScalars>& scalars) {
-  std::vector<std::string> names{"_EDGE_ID", "_VERTEX"};
-  for (const VertexScalars& s : scalars) {
-    const auto is_good = [](char c) {
-      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-    };
-    if (s.name.empty() || !std::all_of(s.name.begin(), s.name.end(), is_good)) {
-      fail_write(ErrorCode::invalid_argument, path,
-                 "scalars are called " + in_quotes(s.name) +
-                     "; names are letters, digits and underscores");
-    }
-    const std::string semantic = semantic_of(s.name);
-    if (std::find(names.begin(), names.end(), semantic) != names.end()) {
-      fail_write(ErrorCode::invalid_argument, path,
-                 "the name " + in_quotes(s.name) + " of scalars is taken");
-    }
-    names.push_back(semantic);
-    if (s.values.size() != mesh.positions.size()) {
-      fail_write(ErrorCode::invalid_argument, path,
-                 std::to_string(s.values.size()) + " values of " + in_quotes(s.name) + " for " +
-                     std::to_string(mesh.positions.size()) + " vertices");
-    }
-    for (std::size_t v = 0; v < s.values.size(); ++v) {
-      if (!(std::abs(s.values[v]) <= std::numeric_limits<float>::max())) {
-        fail_write(ErrorCode::invalid_value, path,
-                   in_quotes(s.name) + " of vertex " + std::to_string(v) + " is " +
-                       to_text(s.values[v]) + ", no number of float32");
-      }
-    }
-  }
 }
 
 PackedSurface pack(const PackRequest& request) {

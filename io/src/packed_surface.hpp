@@ -2,14 +2,17 @@
 /// \file packed_surface.hpp
 /// A mesh as glTF and Draco take it: float32 about a local origin, in primitives of limited size.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "difmesh/io/gltf_file.hpp"
+#include "difmesh/io/write_mesh_options.hpp"
+#include "difmesh/mesh.hpp"
 
 namespace difmesh::detail {
 
@@ -35,29 +38,37 @@ struct PackedPrimitive {
   [[nodiscard]] const Array<float>& positions() const { return attributes.front().floats; }
 };
 
+/// Least and greatest value of scalars.
+struct ScalarRange {
+  std::string name;
+  std::array<double, 2> ends{};
+};
+
 struct PackedSurface {
   Vec3 origin{0, 0, 0};
   std::vector<PackedPrimitive> primitives;
-  /// Least and greatest value of each of the scalars.
-  std::vector<std::array<double, 2>> ranges;
+  std::vector<ScalarRange> ranges;  ///< of each of the scalars written
   std::optional<std::array<double, 2>> colour_range;
 };
 
-/// What becomes of a mesh whose arrays were checked by check_mesh().
+/// What becomes of a mesh that check_portion() and check_scalars() took.
 struct PackRequest {
   const std::filesystem::path& path;  ///< for messages
   const Mesh& mesh;
-  const WriteGltfOptions& options;
+  const WriteMeshOptions& options;
   Vec3 origin{0, 0, 0};
 };
 
+/// The scalars of a mesh that the options ask for.
+[[nodiscard]] inline std::span<const VertexScalar> written_scalars(
+    const Mesh& mesh, const WriteMeshOptions& options) {
+  return options.scalars ? std::span<const VertexScalar>(mesh.scalars)
+                         : std::span<const VertexScalar>();
+}
 /// The centre of the bounding box of the positions; 0 for none.
 [[nodiscard]] Vec3 centre_of(const Array<Vec3>& positions);
 /// `_NAME` in capitals.
 [[nodiscard]] std::string semantic_of(const std::string& name);
-/// \throw Error invalid_argument, invalid_value as write_gltf() says
-void check_scalars(const std::filesystem::path& path, const Mesh& mesh,
-                   const std::vector<VertexScalars>& scalars);
 /// \throw Error invalid_value for positions that float32 cannot hold
 [[nodiscard]] PackedSurface pack(const PackRequest& request);
 

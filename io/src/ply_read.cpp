@@ -10,7 +10,8 @@
 #include <vector>
 
 #include "difmesh/error.hpp"
-#include "mesh_formats.hpp"
+#include "format_part.hpp"
+#include "mesh_check.hpp"
 #include "ply_header.hpp"
 #include "ply_values.hpp"
 #include "polygons.hpp"
@@ -52,7 +53,7 @@ class PlyReader {
         values_(Values(path, header, text)),
         size_(static_cast<std::int64_t>(text.size() - header.data_offset)) {}
 
-  ScalarMesh read() {
+  MeshFile read() {
     for (const PlyElement& element : header_.elements) {
       check_count(element);
       if (element.name == "vertex") {
@@ -124,7 +125,7 @@ class PlyReader {
   }
 
   Mesh& mesh() { return result_.mesh; }
-  std::vector<VertexScalars>& scalars() { return result_.scalars; }
+  std::vector<VertexScalar>& scalars() { return result_.mesh.scalars; }
 
   void read_vertices(const PlyElement& element) {
     std::vector<Role> roles;
@@ -146,7 +147,7 @@ class PlyReader {
     mesh().positions.resize(count);
     mesh().normals.resize(seen[3] == 1 && seen[4] == 1 && seen[5] == 1 ? count : 0);
     mesh().edge_ids.resize(seen[6] == 1 && seen[7] == 1 ? count : 0);
-    for (VertexScalars& one : scalars()) {
+    for (VertexScalar& one : scalars()) {
       one.values.resize(count);
     }
     for (std::size_t v = 0; v < count; ++v) {
@@ -160,9 +161,9 @@ class PlyReader {
       mesh().normals.clear();
       add_warning(result_.warnings, path_, "normals that are not finite: all normals left out");
     }
-    std::vector<VertexScalars> kept;
-    for (VertexScalars& one : scalars()) {
-      const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const VertexScalars& other) {
+    std::vector<VertexScalar> kept;
+    for (VertexScalar& one : scalars()) {
+      const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const VertexScalar& other) {
         return other.name == one.name;
       });
       const bool is_finite = std::all_of(one.values.begin(), one.values.end(),
@@ -324,13 +325,13 @@ class PlyReader {
   std::vector<std::pair<const PlyElement*, Values>> postponed_;
   std::vector<std::uint32_t> corners_;
   Polygons polygons_;
-  ScalarMesh result_;
+  MeshFile result_;
   std::vector<int> scalars_of_;  ///< which of them a property of the vertices is; -1: none
 };
 
 }  // namespace
 
-ScalarMesh read_ply(const InputFile& file) {
+MeshFile read_ply(const InputFile& file) {
   const Array<char> bytes = file.read_text(0, file.size());
   const std::string_view text = plain_text(file.path(), {bytes.data(), bytes.size()});
   const PlyHeader header = parse_ply_header(file.path(), text);

@@ -196,8 +196,7 @@ Polygons::Report Polygons::cut(const std::filesystem::path& path, Mesh& mesh) co
   return report;
 }
 
-void cut_polygons(const std::filesystem::path& path, const Polygons& polygons,
-                  ScalarMesh& surface) {
+void cut_polygons(const std::filesystem::path& path, const Polygons& polygons, MeshFile& surface) {
   const Polygons::Report report = polygons.cut(path, surface.mesh);
   if (report.crossed > 0) {
     add_warning(

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "difmesh/io/vertex_scalars.hpp"
+#include "difmesh/io/mesh_reading.hpp"
 #include "difmesh/mesh.hpp"
 
 namespace difmesh::detail {
@@ -45,6 +45,6 @@ class Polygons {
 };
 
 /// Polygons::cut() with a warning of polygons that cross themselves.
-void cut_polygons(const std::filesystem::path& path, const Polygons& polygons, ScalarMesh& surface);
+void cut_polygons(const std::filesystem::path& path, const Polygons& polygons, MeshFile& surface);
 
 }  // namespace difmesh::detail

@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "difmesh/error.hpp"
-#include "mesh_formats.hpp"
+#include "format_part.hpp"
+#include "mesh_check.hpp"
 #include "scanner.hpp"
 #include "text.hpp"
 #include "warnings.hpp"
@@ -119,7 +120,7 @@ class TextReader {
   TextReader(const std::filesystem::path& path, std::string_view text)
       : path_(path), lines_(path, text, {}), welder_(path) {}
 
-  ScalarMesh read() {
+  MeshFile read() {
     while (lines_.next_line()) {
       bool is_first = true;
       for (auto word = lines_.word(); !word.empty(); word = lines_.word()) {
@@ -243,7 +244,7 @@ class TextReader {
   const std::filesystem::path& path_;
   Scanner lines_;
   Welder welder_;
-  ScalarMesh result_;
+  MeshFile result_;
   Triangle triangle_{};         ///< the corners since the last loop
   std::size_t corners_ = 0;     ///< how many
   bool is_facet_open_ = false;  ///< its loop has not ended
@@ -259,7 +260,7 @@ bool is_text(std::string_view text) {
 
 }  // namespace
 
-ScalarMesh read_stl(const InputFile& file) {
+MeshFile read_stl(const InputFile& file) {
   const Array<char> bytes = file.read_text(0, file.size());
   const std::string_view text(bytes.data(), bytes.size());
   const std::uint64_t count = text.size() >= kHeader ? little_endian(text.data() + 80) : 0;
@@ -278,7 +279,7 @@ ScalarMesh read_stl(const InputFile& file) {
                                  " triangles are " + std::to_string(size) + " bytes, " +
                                  std::to_string(text.size()) + " found");
   }
-  ScalarMesh result{read_binary(file.path(), text, count), {}};
+  MeshFile result{read_binary(file.path(), text, count), {}};
   if (text.size() > size) {
     add_warning(result.warnings, file.path(),
                 count_of(text.size() - size, "byte") + " behind the last triangle left out");

@@ -1,9 +1,16 @@
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
+#include <span>
+#include <string>
 #include <string_view>
+#include <utility>
 
-#include "mesh_formats.hpp"
+#include "difmesh/error.hpp"
+#include "format_part.hpp"
+#include "mesh_check.hpp"
 
 namespace difmesh::detail {
 namespace {
@@ -45,23 +52,95 @@ Vec3 facet_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
   return n;
 }
 
+/// Whether a triangle's area is not exactly 0, as measure() sees it.
+bool has_area(const std::array<Vec3, 3>& corners) {
+  Vec3 u{};
+  Vec3 v{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    u[axis] = corners[1][axis] - corners[0][axis];
+    v[axis] = corners[2][axis] - corners[0][axis];
+  }
+  return u[1] * v[2] != u[2] * v[1] || u[2] * v[0] != u[0] * v[2] || u[0] * v[1] != u[1] * v[0];
+}
+
+class StlEncoder : public MeshEncoder {
+ public:
+  explicit StlEncoder(EncoderRequest request) : request_(std::move(request)) {}
+
+  [[nodiscard]] std::size_t vertex_sections() const override { return 0; }
+
+  void header(ByteOutput& output, const MeshCounts& counts) override {
+    check_count(counts.triangles);
+    std::array<char, kHeader + 4> bytes{};
+    kTitle.copy(bytes.data(), kHeader);
+    Bytes(bytes.data() + kHeader).put(static_cast<std::uint32_t>(counts.triangles));
+    output.write(bytes.data(), bytes.size());
+  }
+
+  void vertices(ByteOutput&, std::size_t, const MeshPortion&) override {}
+
+  void triangles(ByteOutput& output, const MeshPortion& portion) override {
+    triangles_ += portion.triangles.size();
+    check_count(triangles_);
+    std::span<const Vec3> positions = portion.positions;
+    if (!request_.is_whole) {
+      positions_.insert(positions_.end(), positions.begin(), positions.end());
+      positions = positions_;
+    }
+    for (const Triangle& triangle : portion.triangles) {
+      const std::array<Vec3, 3> corners{positions[triangle[0]], positions[triangle[1]],
+                                        positions[triangle[2]]};
+      std::array<char, kRecord> record{};
+      Bytes bytes(record.data());
+      bytes.put(facet_normal(corners[0], corners[1], corners[2]));
+      for (const Vec3& corner : corners) {
+        bytes.put(corner);
+      }
+      output.write(record.data(), record.size());
+      note_rounding(corners);
+    }
+  }
+
+  void complete(MeshFileReport& report) const override {
+    report.vertices = 3 * report.triangles;
+    report.position_error = position_error_;
+    report.collapsed_triangles = collapsed_triangles_;
+  }
+
+ private:
+  void check_count(std::uint64_t triangles) const {
+    if (triangles > std::numeric_limits<std::int32_t>::max()) {
+      fail_write(ErrorCode::too_large, request_.path,
+                 std::to_string(triangles) + " triangles are too many for STL");
+    }
+  }
+
+  /// What float32 does to a triangle.
+  void note_rounding(const std::array<Vec3, 3>& exact) {
+    std::array<Vec3, 3> rounded{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        rounded[c][axis] = static_cast<double>(static_cast<float>(exact[c][axis]));
+        position_error_ = std::max(position_error_, std::abs(exact[c][axis] - rounded[c][axis]));
+      }
+    }
+    collapsed_triangles_ += has_area(exact) && !has_area(rounded) ? 1 : 0;
+  }
+
+  EncoderRequest request_;
+  Array<Vec3> positions_;  ///< so far; empty where the mesh comes as one portion
+  std::uint64_t triangles_ = 0;
+  double position_error_ = 0.0;
+  std::int64_t collapsed_triangles_ = 0;
+};
+
 }  // namespace
 
-void write_stl(AtomicFile& file, const Mesh& mesh) {
-  std::array<char, kHeader + 4> header{};
-  kTitle.copy(header.data(), kHeader);
-  Bytes(header.data() + kHeader).put(static_cast<std::uint32_t>(mesh.triangles.size()));
-  file.write(header.data(), header.size());
-  for (const Triangle& triangle : mesh.triangles) {
-    std::array<char, kRecord> record{};
-    Bytes bytes(record.data());
-    bytes.put(facet_normal(mesh.positions[triangle[0]], mesh.positions[triangle[1]],
-                           mesh.positions[triangle[2]]));
-    for (const std::uint32_t v : triangle) {
-      bytes.put(mesh.positions[v]);
-    }
-    file.write(record.data(), record.size());
-  }
-}
+constinit const FormatPart stl_format{
+    .facts = {.extension = ".stl", .name = "STL"},
+    .float32_positions = true,
+    .read = read_open<read_stl>,
+    .encoder = make_encoder<StlEncoder>,
+};
 
 }  // namespace difmesh::detail

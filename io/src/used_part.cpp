@@ -24,7 +24,7 @@ Array<T> chosen(const Array<T>& values, const Used& is_used) {
 
 }  // namespace
 
-std::optional<ScalarMesh> used_part(const Mesh& mesh, const std::vector<VertexScalars>& scalars) {
+std::optional<Mesh> used_part(const Mesh& mesh) {
   Used is_used(mesh.positions.size(), 0);
   for (const Triangle& triangle : mesh.triangles) {
     for (const std::uint32_t v : triangle) {
@@ -34,11 +34,11 @@ std::optional<ScalarMesh> used_part(const Mesh& mesh, const std::vector<VertexSc
   if (std::find(is_used.begin(), is_used.end(), std::uint8_t{0}) == is_used.end()) {
     return std::nullopt;
   }
-  ScalarMesh part;
-  part.mesh.positions = chosen(mesh.positions, is_used);
-  part.mesh.normals = chosen(mesh.normals, is_used);
-  part.mesh.edge_ids = chosen(mesh.edge_ids, is_used);
-  for (const VertexScalars& one : scalars) {
+  Mesh part;
+  part.positions = chosen(mesh.positions, is_used);
+  part.normals = chosen(mesh.normals, is_used);
+  part.edge_ids = chosen(mesh.edge_ids, is_used);
+  for (const VertexScalar& one : mesh.scalars) {
     part.scalars.push_back({one.name, chosen(one.values, is_used)});
   }
   std::vector<std::uint32_t> place(is_used.size());
@@ -47,9 +47,9 @@ std::optional<ScalarMesh> used_part(const Mesh& mesh, const std::vector<VertexSc
     place[v] = next;
     next += is_used[v];
   }
-  part.mesh.triangles.reserve(mesh.triangles.size());
+  part.triangles.reserve(mesh.triangles.size());
   for (const Triangle& t : mesh.triangles) {
-    part.mesh.triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
+    part.triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
   }
   return part;
 }

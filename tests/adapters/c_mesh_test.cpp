@@ -55,7 +55,9 @@ bool same(const MeshView& a, const MeshView& b) {
          std::memcmp(a.positions, b.positions, 24 * vertices) == 0 &&
          std::memcmp(a.normals, b.normals, 24 * vertices) == 0 &&
          std::memcmp(a.edge_ids, b.edge_ids, 8 * vertices) == 0 &&
-         std::memcmp(a.indices, b.indices, 12 * static_cast<std::size_t>(a.triangles)) == 0;
+         std::memcmp(a.indices, b.indices, 12 * static_cast<std::size_t>(a.triangles)) == 0 &&
+         a.scalars.size() == 1 && b.scalars.size() == 1 && a.scalars[0].name == b.scalars[0].name &&
+         std::memcmp(a.scalars[0].values.data(), b.scalars[0].values.data(), 8 * vertices) == 0;
 }
 
 }  // namespace
@@ -63,6 +65,8 @@ bool same(const MeshView& a, const MeshView& b) {
 TEST_CASE("c mesh: to OpenMesh and CGAL and back to fractions") {
   for (const OwnedField& cells : {blob({14, 13, 12}), white_noise({9, 10, 11}, 3)}) {
     const Owned mesh = surface_of(cells);
+    // Any numbers will do: of three times as many coordinates, the first.
+    REQUIRE(dif_mesh_set_scalars(mesh.get(), "height", MeshView(mesh.get()).positions) == DIF_OK);
     const auto opened = to_openmesh<DoubleTriangles>(mesh.get());
     const auto surface = to_cgal<SurfaceMesh>(mesh.get());
     CHECK(opened.report.refused.empty());

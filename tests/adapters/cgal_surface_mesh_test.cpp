@@ -120,12 +120,12 @@ TEST_CASE("surface_mesh: what comes back gives the fractions of what went") {
 
 TEST_CASE("surface_mesh: appended meshes do not touch what is there") {
   using Index = Inexact::Vertex_index;
-  const Mesh first = open_noise();
-  const Mesh second = closed_noise();
-  auto [other, report] = to_cgal<Inexact>(first, {.scalars = {{"curvature", scalar_of(first)}}});
+  const Mesh first = with_scalar(open_noise(), "curvature");
+  const Mesh second = with_scalar(closed_noise(), "size");
+  auto [other, report] = to_cgal<Inexact>(first);
   auto own = other.add_property_map<Index, int>("v:own", -1).first;
   own[Index(3)] = 3;
-  report = append_to_cgal(other, second, {.scalars = {{"size", scalar_of(second)}}});
+  report = append_to_cgal(other, second);
   const std::size_t shift = first.positions.size();
   Mesh both = first;
   both.positions.insert(both.positions.end(), second.positions.begin(), second.positions.end());
@@ -140,8 +140,8 @@ TEST_CASE("surface_mesh: appended meshes do not touch what is there") {
   const auto curvature = other.property_map<Index, double>("v:curvature");
   const auto size = other.property_map<Index, double>("v:size");
   REQUIRE((curvature.second && size.second));
-  const std::vector<double> firsts = scalar_of(first);
-  const std::vector<double> seconds = scalar_of(second);
+  const Array<double>& firsts = first.scalars[0].values;
+  const Array<double>& seconds = second.scalars[0].values;
   bool equal = own[Index(3)] == 3;
   for (const Index v : other.vertices()) {
     equal = equal && (v == Index(3) || own[v] == -1) &&
@@ -149,7 +149,13 @@ TEST_CASE("surface_mesh: appended meshes do not touch what is there") {
                                     : size.first[v] == seconds[v - shift]);
   }
   CHECK(equal);
-  CHECK(mesh_from_cgal(other).edge_ids.empty());
+  const Mesh back = mesh_from_cgal(other);
+  CHECK(back.edge_ids.empty());
+  REQUIRE(back.scalars.size() == 2);
+  CHECK(back.scalars[0].name == "curvature");
+  CHECK(back.scalars[0].values[3] == firsts[3]);
+  CHECK(back.scalars[1].name == "size");
+  CHECK(back.scalars[1].values.back() == seconds.back());
 }
 
 TEST_CASE("surface_mesh: removed items are neither used nor harmed") {

@@ -119,16 +119,16 @@ TEST_CASE("openmesh: what comes back gives the fractions of what went") {
 
 TEST_CASE_TEMPLATE("openmesh: appended meshes do not touch what is there", OMesh, DoubleTriangles,
                    MixedTriangles) {
-  const Mesh first = open_noise();
-  const Mesh second = small_sphere();
-  auto [other, report] = to_openmesh<OMesh>(first, {.scalars = {{"curvature", scalar_of(first)}}});
+  const Mesh first = with_scalar(open_noise(), "curvature");
+  const Mesh second = with_scalar(small_sphere(), "size");
+  auto [other, report] = to_openmesh<OMesh>(first);
   OpenMesh::VPropHandleT<int> own;
   other.add_property(own, "own");
   for (const auto vertex : other.vertices()) {
     other.property(own, vertex) = vertex.idx();
   }
   const int shift = static_cast<int>(other.n_vertices());
-  report = append_to_openmesh(other, second, {.scalars = {{"size", scalar_of(second)}}});
+  report = append_to_openmesh(other, second);
   CHECK(report.vertices == static_cast<std::int64_t>(second.positions.size()));
   CHECK(report.refused.empty());
 
@@ -148,8 +148,8 @@ TEST_CASE_TEMPLATE("openmesh: appended meshes do not touch what is there", OMesh
   OpenMesh::VPropHandleT<double> size;
   REQUIRE(other.get_property_handle(curvature, "v:curvature"));
   REQUIRE(other.get_property_handle(size, "v:size"));
-  const std::vector<double> firsts = scalar_of(first);
-  const std::vector<double> seconds = scalar_of(second);
+  const Array<double>& firsts = first.scalars[0].values;
+  const Array<double>& seconds = second.scalars[0].values;
   bool equal = true;
   for (const auto vertex : other.vertices()) {
     const int v = vertex.idx();
@@ -161,6 +161,22 @@ TEST_CASE_TEMPLATE("openmesh: appended meshes do not touch what is there", OMesh
   CHECK(equal);
   // Ids that start again do not ascend over all vertices, and Mesh allows no other.
   CHECK(mesh_from_openmesh(other).edge_ids.empty());
+}
+
+TEST_CASE("openmesh: scalars come back under their names") {
+  const Mesh mesh = with_scalar(with_scalar(open_noise(), "curvature"), "size");
+  auto other = to_openmesh<MixedTriangles>(mesh).mesh;
+  OpenMesh::VPropHandleT<double> foreign;
+  other.add_property(foreign, "without the letter");
+  OpenMesh::VPropHandleT<float> rounded;
+  other.add_property(rounded, "v:rounded");
+  const Mesh back = mesh_from_openmesh(other);
+  REQUIRE(back.scalars.size() == 2);
+  CHECK(back.scalars[0].name == "curvature");
+  CHECK(back.scalars[1].name == "size");
+  CHECK(same_bytes(back.scalars[1].values, mesh.scalars[1].values));
+  CHECK(mesh_from_openmesh(to_openmesh<MixedTriangles>(mesh, {.scalars = false}).mesh)
+            .scalars.empty());
 }
 
 TEST_CASE("openmesh: attributes come when they are wanted") {
@@ -289,8 +305,9 @@ TEST_CASE("openmesh: what cannot be is an error and changes nothing") {
   bad = good;
   bad.edge_ids.push_back(1);
   fails(bad, {}, ErrorCode::invalid_argument, "edge_ids");
-  const std::vector<double> few{1.0, 2.0};
-  fails(good, {.scalars = {{"curvature", few}}}, ErrorCode::invalid_argument, "'curvature'");
+  bad = good;
+  bad.scalars.push_back({"curvature", {1.0, 2.0}});
+  fails(bad, {}, ErrorCode::invalid_argument, "'curvature'");
   MeshView view;
   view.vertices = 3;
   CHECK_THROWS_AS(append_to_openmesh(other, view), Error);

@@ -258,12 +258,13 @@ PolygonMesh prism_with_concave_caps() {
   return mesh;
 }
 
-std::vector<double> scalar_of(const Mesh& mesh) {
-  std::vector<double> values;
+Mesh with_scalar(Mesh mesh, const std::string& name) {
+  Array<double> values;
   for (const Vec3& p : mesh.positions) {
     values.push_back(p[0] - 2.0 * p[1] + 0.1 * p[2] * p[2]);
   }
-  return values;
+  mesh.scalars.push_back({name, std::move(values)});
+  return mesh;
 }
 
 }  // namespace difmesh::test

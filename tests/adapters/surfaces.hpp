@@ -50,7 +50,7 @@ struct PolygonMesh {
 PolygonMesh cube_of_squares();
 PolygonMesh prism_with_concave_caps();
 
-/// Values at the vertices that are not alike.
-std::vector<double> scalar_of(const Mesh& mesh);
+/// The mesh with values at its vertices that are not alike.
+Mesh with_scalar(Mesh mesh, const std::string& name);
 
 }  // namespace difmesh::test

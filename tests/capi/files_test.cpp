@@ -131,7 +131,7 @@ bool is_written(const dif_mesh* mesh, const std::filesystem::path& path,
   INFO(std::string(dif_last_message()));
   if (lacks_gltf || lacks_draco) {
     REQUIRE(status == DIF_ERROR_UNSUPPORTED);
-    CHECK(std::string(dif_last_message()).find(lacks_gltf ? "no glTF" : "no Draco") !=
+    CHECK(std::string(dif_last_message()).find(lacks_gltf ? "without glTF" : "without Draco") !=
           std::string::npos);
     dif_mesh* read = nullptr;
     CHECK(dif_mesh_read(drc ? "x.drc" : "x.glb", &read) ==

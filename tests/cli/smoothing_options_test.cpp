@@ -25,8 +25,8 @@ using difmesh::Array;
 using difmesh::FieldView;
 using difmesh::Grid;
 using difmesh::Mesh;
+using difmesh::MeshFile;
 using difmesh::Options;
-using difmesh::ScalarMesh;
 using difmesh::Vec3;
 using difmesh::test::check_fails;
 using difmesh::test::check_succeeds;
@@ -51,11 +51,11 @@ struct Place {
     arguments.insert(arguments.end(), options.begin(), options.end());
     return run_program(arguments);
   }
-  [[nodiscard]] ScalarMesh reconstruct(const Words& options) const {
+  [[nodiscard]] MeshFile reconstruct(const Words& options) const {
     Words all{"--quiet", "--report", report};
     all.insert(all.end(), options.begin(), options.end());
     check_succeeds(run("mesh.ply", all));
-    return difmesh::read_scalar_mesh(folder / "mesh.ply");
+    return difmesh::read_mesh_file(folder / "mesh.ply");
   }
   [[nodiscard]] nlohmann::json facts() const {
     return nlohmann::json::parse(test::read_bytes(report));
@@ -159,13 +159,13 @@ TEST_CASE("--smooth renews normals and keeps edge ids where they are asked for")
 
 TEST_CASE("--curvature comes with the vertices bit for bit") {
   const Place place;
-  const ScalarMesh surface = place.reconstruct({"--curvature"});
+  const MeshFile surface = place.reconstruct({"--curvature"});
   const difmesh::Curvature expected = difmesh::curvature(surface.mesh);
-  REQUIRE(surface.scalars.size() == 2);
-  CHECK(surface.scalars[0].name == "mean_curvature");
-  CHECK(same_bytes(surface.scalars[0].values, expected.mean));
-  CHECK(surface.scalars[1].name == "gaussian_curvature");
-  CHECK(same_bytes(surface.scalars[1].values, expected.gaussian));
+  REQUIRE(surface.mesh.scalars.size() == 2);
+  CHECK(surface.mesh.scalars[0].name == "mean_curvature");
+  CHECK(same_bytes(surface.mesh.scalars[0].values, expected.mean));
+  CHECK(surface.mesh.scalars[1].name == "gaussian_curvature");
+  CHECK(same_bytes(surface.mesh.scalars[1].values, expected.gaussian));
   CHECK(place.facts()["options"]["curvature"] == true);
 }
 
@@ -180,9 +180,9 @@ TEST_CASE("--curvature writes 0 where there is none and says so") {
   CHECK(outcome.exit_code == 0);
   CHECK(outcome.err.find("no curvature") != std::string::npos);
   CHECK(outcome.err.find("6 of 6 vertices") != std::string::npos);
-  const ScalarMesh surface = difmesh::read_scalar_mesh(mesh);
-  REQUIRE(surface.scalars.size() == 2);
-  CHECK(std::all_of(surface.scalars[0].values.begin(), surface.scalars[0].values.end(),
+  const MeshFile surface = difmesh::read_mesh_file(mesh);
+  REQUIRE(surface.mesh.scalars.size() == 2);
+  CHECK(std::all_of(surface.mesh.scalars[0].values.begin(), surface.mesh.scalars[0].values.end(),
                     [](double value) { return value == 0.0; }));
   check_succeeds(run_program({"reconstruct", path, "-o", mesh, "--curvature", "--quiet"}));
 }

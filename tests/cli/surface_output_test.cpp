@@ -11,7 +11,6 @@
 
 #include "difmesh/curvature.hpp"
 #include "difmesh/io/field_file.hpp"
-#include "difmesh/io/gltf_file.hpp"
 #include "difmesh/io/mesh_file.hpp"
 #include "difmesh/reconstruct.hpp"
 #include "io/surfaces.hpp"
@@ -23,7 +22,7 @@ namespace {
 
 using difmesh::Grid;
 using difmesh::Mesh;
-using difmesh::ScalarMesh;
+using difmesh::MeshFile;
 using difmesh::Vec3;
 using difmesh::test::check_fails;
 using difmesh::test::check_succeeds;
@@ -76,26 +75,26 @@ TEST_CASE("curvature reaches glTF and Draco and colours by it") {
   const auto check = [&](const std::string& name, const Words& options, double tolerance) {
     CAPTURE(name);
     check_succeeds(place.reconstruct(name, options));
-    const ScalarMesh surface = difmesh::read_scalar_mesh(place.path(name));
-    REQUIRE(surface.scalars.size() == 2);
-    for (const auto& [scalars, values] : surface.scalars) {
+    const MeshFile surface = difmesh::read_mesh_file(place.path(name));
+    REQUIRE(surface.mesh.scalars.size() == 2);
+    for (const auto& [scalars, values] : surface.mesh.scalars) {
       CAPTURE(scalars);
       const bool is_mean = scalars == "mean_curvature";
       CHECK((is_mean || scalars == "gaussian_curvature"));
       CHECK(largest(values, is_mean ? wanted.mean : wanted.gaussian) <
             (is_mean ? 1.0 : 10.0) * tolerance);
     }
-    CHECK(surface.scalars[0].name != surface.scalars[1].name);
+    CHECK(surface.mesh.scalars[0].name != surface.mesh.scalars[1].name);
   };
   check("m.glb", {"--curvature"}, 1e-5);
   check("m.gltf", {"--curvature", "--color-by", "mean-curvature"}, 1e-5);
   check("m.drc", {"--curvature", "--draco-method", "sequential"}, 1e-2);
   // Alone, it is computed for the colours.
   check_succeeds(place.reconstruct("c.glb", {"--color-by", "gaussian-curvature"}));
-  const ScalarMesh coloured = difmesh::read_gltf(place.path("c.glb"));
-  REQUIRE(coloured.scalars.size() == 1);
-  CHECK(coloured.scalars[0].name == "gaussian_curvature");
-  CHECK(largest(coloured.scalars[0].values, wanted.gaussian) < 1e-4);
+  const MeshFile coloured = difmesh::read_mesh_file(place.path("c.glb"));
+  REQUIRE(coloured.mesh.scalars.size() == 1);
+  CHECK(coloured.mesh.scalars[0].name == "gaussian_curvature");
+  CHECK(largest(coloured.mesh.scalars[0].values, wanted.gaussian) < 1e-4);
 }
 
 TEST_CASE("reconstruct writes glb with normals and edge ids and colours") {
@@ -106,17 +105,17 @@ TEST_CASE("reconstruct writes glb with normals and edge ids and colours") {
   check_succeeds(outcome);
   const std::string bytes = test::read_bytes(place.path("m.glb"));
   CHECK(fact(outcome.out, "file").starts_with(std::to_string(bytes.size()) + " bytes, "));
-  const ScalarMesh found = difmesh::read_gltf(place.path("m.glb"));
+  const MeshFile found = difmesh::read_mesh_file(place.path("m.glb"));
   const Mesh wanted = place.wanted();
   CHECK(found.mesh.triangles == wanted.triangles);
   CHECK(found.mesh.edge_ids == wanted.edge_ids);
   CHECK(largest_difference(found.mesh.positions, wanted.positions) < 1e-6);
   CHECK(largest_difference(found.mesh.normals, wanted.normals) < 1e-6);
-  REQUIRE(found.scalars.size() == 1);
-  CHECK(found.scalars[0].name == "angle");
+  REQUIRE(found.mesh.scalars.size() == 1);
+  CHECK(found.mesh.scalars[0].name == "angle");
   const difmesh::Array<double> angles = difmesh::cli::largest_angles(wanted);
   for (std::size_t v = 0; v < angles.size(); ++v) {
-    REQUIRE(found.scalars[0].values[v] == doctest::Approx(angles[v]).epsilon(1e-6));
+    REQUIRE(found.mesh.scalars[0].values[v] == doctest::Approx(angles[v]).epsilon(1e-6));
   }
   CHECK(Glb(bytes).json.at("meshes").at(0).at("extras").at("difmesh").at("COLOR_0") ==
         Json({{"attribute", "_ANGLE"}, {"map", "cool_warm"}, {"low", -10.0}, {"high", 20.0}}));
@@ -150,14 +149,14 @@ TEST_CASE("reconstruct colours by the error against a shape and a mesh") {
   const BallPlace place;
   check_succeeds(run_program({"reconstruct", place.field, "-o", place.glb, "--color-by", "error",
                               "--shape", "sphere", "--radius", "2", "--centre", "1,2,3"}));
-  const ScalarMesh found = difmesh::read_gltf(place.glb);
+  const MeshFile found = difmesh::read_mesh_file(place.glb);
   const difmesh::Array<double> wanted = BallPlace::errors(found.mesh);
-  REQUIRE(found.scalars.size() == 1);
-  CHECK(found.scalars[0].name == "error");
+  REQUIRE(found.mesh.scalars.size() == 1);
+  CHECK(found.mesh.scalars[0].name == "error");
   double largest = 0.0;
   for (std::size_t v = 0; v < wanted.size(); ++v) {
-    REQUIRE(std::abs(found.scalars[0].values[v] - wanted[v]) < 1e-6);
-    largest = std::max(largest, std::abs(found.scalars[0].values[v]));
+    REQUIRE(std::abs(found.mesh.scalars[0].values[v] - wanted[v]) < 1e-6);
+    largest = std::max(largest, std::abs(found.mesh.scalars[0].values[v]));
   }
   CHECK(largest > 1e-3);
   CHECK(largest < 0.02);
@@ -178,17 +177,17 @@ TEST_CASE("reconstruct colours by the error against a shape and a mesh") {
   check_succeeds(run_program({"sample", "sphere", "-o", fine, "--cells", "64", "--radius", "2",
                               "--centre", "1,2,3", "--quiet"}));
   check_succeeds(run_program({"reconstruct", fine, "-o", reference, "--quiet"}));
-  for (const std::string name : {"again.glb", "again.drc"}) {
+  for (const std::string name : {"again.glb", "again.drc", "again.ply"}) {
     const std::string again = (place.folder / name).string();
     check_succeeds(
         run_program({"reconstruct", place.field, "-o", again, "--reference", reference}));
-    const ScalarMesh other = difmesh::read_scalar_mesh(again);
-    REQUIRE(other.scalars.size() == 1);
-    CHECK(other.scalars[0].name == "error");
+    const MeshFile other = difmesh::read_mesh_file(again);
+    REQUIRE(other.mesh.scalars.size() == 1);
+    CHECK(other.mesh.scalars[0].name == "error");
     const difmesh::Array<double> errors = BallPlace::errors(other.mesh);
     double difference = 0.0;
     for (std::size_t v = 0; v < errors.size(); ++v) {
-      difference = std::max(difference, std::abs(other.scalars[0].values[v] - errors[v]));
+      difference = std::max(difference, std::abs(other.mesh.scalars[0].values[v] - errors[v]));
     }
     CHECK(difference < 0.25 * largest);
   }
@@ -207,7 +206,7 @@ TEST_CASE("what errors are against is checked before the work begins") {
   refused("m.glb", {"--shape", "cube"}, 2, {"--shape", "'cube'", "sphere"});
   refused("m.glb", {"--radius", "2"}, 2, {"--radius", "only with --shape"});
   refused("m.glb", {"--shape", "sphere", "--reference", "a.ply"}, 2, {"--shape", "--reference"});
-  refused("m.ply", {"--shape", "sphere"}, 2, {"--shape", "m.ply"});
+  refused("m.obj", {"--shape", "sphere"}, 2, {"--shape", "m.obj", ".ply"});
   refused("m.glb", {"--shape", "sphere", "--tube-radius", "2"}, 2, {"--tube-radius"});
   refused("m.glb", {"--reference", place.folder / "none.ply"}, 1, {"none.ply"});
 }

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "difmesh/io/field_file.hpp"
-#include "difmesh/io/gltf_file.hpp"
 #include "difmesh/io/mesh_file.hpp"
 #include "difmesh/reconstruct.hpp"
 #include "io/surfaces.hpp"
@@ -19,7 +18,7 @@
 namespace {
 
 using difmesh::Mesh;
-using difmesh::ScalarMesh;
+using difmesh::MeshFile;
 using difmesh::test::check_fails;
 using difmesh::test::check_succeeds;
 using difmesh::test::run_program;
@@ -34,7 +33,7 @@ Json scene_of(const std::string& page) {
 }
 
 /// The surface of a page, read as the .gltf file that a data: URI makes.
-ScalarMesh surface_of(const Json& surface, const TempFolder& folder) {
+MeshFile surface_of(const Json& surface, const TempFolder& folder) {
   static const std::string digits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string bytes;
@@ -51,7 +50,7 @@ ScalarMesh surface_of(const Json& surface, const TempFolder& folder) {
       bytes += static_cast<char>((bits >> static_cast<unsigned>(count)) & 0xFFU);
     }
   }
-  return difmesh::read_gltf(folder.file("embedded.glb", bytes));
+  return difmesh::read_mesh_file(folder.file("embedded.glb", bytes));
 }
 
 }  // namespace
@@ -61,9 +60,10 @@ TEST_CASE("view puts meshes with their scalars into one page") {
   const Mesh ball = test::ball(10);
   const std::string plain = (folder / "<b>ball.ply").string();
   difmesh::write_mesh(plain, ball);
-  difmesh::VertexScalars own{"height", difmesh::Array<double>(ball.positions.size(), 0.25)};
+  Mesh tall = ball;
+  tall.scalars = {{"height", difmesh::Array<double>(ball.positions.size(), 0.25)}};
   const std::string glb = (folder / "ball.glb").string();
-  difmesh::write_gltf(glb, ball, {.scalars = {own}});
+  difmesh::write_mesh(glb, tall);
   const std::string page = (folder / "page.html").string();
   check_succeeds(run_program(
       {"view", plain, glb, "-o", page, "--color-by", "angle", "--color-range", "0,30", "--quiet"}));
@@ -74,10 +74,10 @@ TEST_CASE("view puts meshes with their scalars into one page") {
   CHECK(scene.at("range") == Json({0, 30}));
   REQUIRE(scene.at("surfaces").size() == 2);
   for (std::size_t s = 0; s < 2; ++s) {
-    const ScalarMesh shown = surface_of(scene.at("surfaces").at(s), folder);
+    const MeshFile shown = surface_of(scene.at("surfaces").at(s), folder);
     CHECK(shown.mesh.triangles == ball.triangles);
     std::vector<std::string> names;
-    for (const difmesh::VertexScalars& scalars : shown.scalars) {
+    for (const difmesh::VertexScalar& scalars : shown.mesh.scalars) {
       names.push_back(scalars.name);
     }
     std::sort(names.begin(), names.end());
@@ -133,11 +133,11 @@ TEST_CASE("view offers the error against a shape") {
   CHECK(scene.at("diverging") == true);
   std::vector<double> largest;
   for (const Json& surface : scene.at("surfaces")) {
-    const ScalarMesh shown = surface_of(surface, folder);
+    const MeshFile shown = surface_of(surface, folder);
     const auto errors =
-        std::find_if(shown.scalars.begin(), shown.scalars.end(),
-                     [](const difmesh::VertexScalars& one) { return one.name == "error"; });
-    REQUIRE(errors != shown.scalars.end());
+        std::find_if(shown.mesh.scalars.begin(), shown.mesh.scalars.end(),
+                     [](const difmesh::VertexScalar& one) { return one.name == "error"; });
+    REQUIRE(errors != shown.mesh.scalars.end());
     largest.push_back(0.0);
     for (std::size_t v = 0; v < errors->values.size(); ++v) {
       const difmesh::Vec3& p = shown.mesh.positions[v];

@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   difmesh::Array<char> bytes(size);
   std::copy_n(data, size, bytes.begin());
   try {
-    const difmesh::ScalarMesh found = difmesh::detail::decode_drc("fuzz.drc", bytes);
+    const difmesh::MeshFile found = difmesh::detail::decode_drc("fuzz.drc", bytes);
     for (const difmesh::Triangle& t : found.mesh.triangles) {
       if (std::max({t[0], t[1], t[2]}) >= found.mesh.positions.size()) {
         std::abort();

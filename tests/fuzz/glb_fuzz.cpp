@@ -13,14 +13,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   difmesh::Array<char> bytes(size);
   std::copy_n(data, size, bytes.begin());
   try {
-    const difmesh::ScalarMesh found = difmesh::detail::decode_gltf("fuzz.glb", std::move(bytes));
+    const difmesh::MeshFile found = difmesh::detail::decode_gltf("fuzz.glb", std::move(bytes));
     const std::size_t vertices = found.mesh.positions.size();
     for (const difmesh::Triangle& t : found.mesh.triangles) {
       if (std::max({t[0], t[1], t[2]}) >= vertices) {
         std::abort();
       }
     }
-    for (const difmesh::VertexScalars& scalars : found.scalars) {
+    for (const difmesh::VertexScalar& scalars : found.mesh.scalars) {
       if (scalars.values.size() != vertices) {
         std::abort();
       }

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "difmesh/error.hpp"
-#include "difmesh/io/gltf_file.hpp"
+#include "difmesh/io/mesh_file.hpp"
 
 namespace {
 
@@ -59,8 +59,8 @@ Mesh spheres(std::uint32_t rows, std::uint32_t count, const Vec3& place = {0, 0,
   return mesh;
 }
 
-difmesh::VertexScalars heights(const Mesh& mesh, const Vec3& place) {
-  difmesh::VertexScalars scalars{"height", {}};
+difmesh::VertexScalar heights(const Mesh& mesh, const Vec3& place) {
+  difmesh::VertexScalar scalars{"height", {}};
   for (const Vec3& position : mesh.positions) {
     scalars.values.push_back(position[2] - place[2]);
   }
@@ -76,21 +76,15 @@ class Samples {
   }
 
   void add(const std::string& name, std::uint32_t rows, std::uint32_t count,
-           const std::function<void(difmesh::WriteGltfOptions&)>& choose = {},
+           const std::function<void(difmesh::WriteMeshOptions&)>& choose = {},
            const Vec3& place = {0, 0, 0}, double radius = 1.5) {
-    const Mesh mesh = spheres(rows, count, place, radius);
-    difmesh::WriteGltfOptions options;
-    options.scalars.push_back(heights(mesh, place));
+    Mesh mesh = spheres(rows, count, place, radius);
+    mesh.scalars = {heights(mesh, place)};
+    difmesh::WriteMeshOptions options;
     if (choose) {
       choose(options);
     }
-    difmesh::MeshFileReport report;
-    if (name.ends_with(".drc")) {
-      difmesh::WriteDrcOptions drc{.scalars = options.scalars, .draco = *options.draco};
-      report = difmesh::write_drc(folder_ / name, mesh, drc);
-    } else {
-      report = difmesh::write_gltf(folder_ / name, mesh, options);
-    }
+    const difmesh::MeshFileReport report = difmesh::write_mesh(folder_ / name, mesh, options);
     list_.precision(17);
     list_ << "{\"file\":\"" << name << "\",\"rows\":" << rows << ",\"spheres\":" << count
           << ",\"radius\":" << radius << ",\"place\":[" << place[0] << ',' << place[1] << ','
@@ -106,13 +100,13 @@ class Samples {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     mesh.triangles = {{0, 1, 2}};
-    difmesh::write_gltf(folder_ / "triangle.glb", mesh);
-    difmesh::write_gltf(folder_ / "triangle_draco.glb", mesh, {.draco = {{}}});
+    difmesh::write_mesh(folder_ / "triangle.glb", mesh);
+    difmesh::write_mesh(folder_ / "triangle_draco.glb", mesh, {.draco = {{}}});
   }
 
   void empty_is_refused() {
     try {
-      difmesh::write_gltf(folder_ / "empty.glb", {});
+      difmesh::write_mesh(folder_ / "empty.glb", {});
     } catch (const difmesh::Error& error) {
       std::cout << "empty: " << error.what() << '\n';
       return;
@@ -126,7 +120,7 @@ class Samples {
 };
 
 void write_all(Samples& samples) {
-  using Options = difmesh::WriteGltfOptions;
+  using Options = difmesh::WriteMeshOptions;
   const auto draco = [](int bits, difmesh::DracoMethod method) {
     return [bits, method](Options& o) {
       o.draco = difmesh::DracoOptions{.position_bits = bits, .method = method};
@@ -141,7 +135,7 @@ void write_all(Samples& samples) {
   samples.add("long_indices.glb", 182, 1);   // 65886
   samples.add("far.glb", 40, 1, {}, {1e6, -1e6, 1e6}, 0.05);
   samples.add("bare.glb", 40, 1, [](Options& o) {
-    o.scalars.clear();
+    o.scalars = false;
     o.edge_ids = false;
     o.normals = false;
   });

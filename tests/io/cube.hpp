@@ -9,7 +9,7 @@
 
 namespace test {
 
-inline void check_cube(const difmesh::ScalarMesh& read) {
+inline void check_cube(const difmesh::MeshFile& read) {
   const difmesh::Measure m = difmesh::measure(read.mesh);
   CHECK(m.triangles == 12);
   CHECK(m.vertices == 8);

@@ -1,4 +1,3 @@
-#include "difmesh/io/draco_file.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +7,6 @@
 #include <numbers>
 #include <string>
 
-#include "difmesh/io/gltf_file.hpp"
 #include "difmesh/io/mesh_file.hpp"
 #include "difmesh/measure.hpp"
 #include "io/surfaces.hpp"
@@ -19,9 +17,9 @@ namespace {
 using difmesh::DracoMethod;
 using difmesh::ErrorCode;
 using difmesh::Mesh;
-using difmesh::ScalarMesh;
+using difmesh::MeshFile;
 using difmesh::Vec3;
-using difmesh::VertexScalars;
+using difmesh::VertexScalar;
 using difmesh::test::largest_difference;
 using test::TempFolder;
 
@@ -40,8 +38,8 @@ void check_by_ids(const Mesh& back, const Mesh& mesh, double bound) {
   }
 }
 
-VertexScalars squares(const Mesh& mesh) {
-  VertexScalars scalars{"square", {}};
+VertexScalar squares(const Mesh& mesh) {
+  VertexScalar scalars{"square", {}};
   for (const Vec3& p : mesh.positions) {
     scalars.values.push_back(p[0] * p[0] - p[1]);
   }
@@ -52,26 +50,26 @@ VertexScalars squares(const Mesh& mesh) {
 
 TEST_CASE("sequential draco keeps the order") {
   const TempFolder folder;
-  const Mesh mesh = test::ball(16);
-  const VertexScalars scalars = squares(mesh);
+  Mesh mesh = test::ball(16);
+  const VertexScalar scalars = squares(mesh);
+  mesh.scalars = {scalars};
   const auto [low, high] = std::minmax_element(scalars.values.begin(), scalars.values.end());
   for (const int bits : {8, 11, 14, 20}) {
     CAPTURE(bits);
     const difmesh::DracoOptions draco{.position_bits = bits, .method = DracoMethod::sequential};
-    const auto report =
-        difmesh::write_gltf(folder / "m.glb", mesh, {.scalars = {scalars}, .draco = draco});
+    const auto report = difmesh::write_mesh(folder / "m.glb", mesh, {.draco = draco});
     CHECK(report.position_bits == bits);
     CHECK(report.position_error < 13.2 / (std::exp2(bits) - 1) / 2.0 + 1e-5);
-    const ScalarMesh back = difmesh::read_gltf(folder / "m.glb");
+    const MeshFile back = difmesh::read_mesh_file(folder / "m.glb");
     CHECK(back.mesh.triangles == mesh.triangles);
     CHECK(back.mesh.edge_ids == mesh.edge_ids);
     REQUIRE(back.mesh.positions.size() == mesh.positions.size());
-    REQUIRE(back.scalars.size() == 1);
+    REQUIRE(back.mesh.scalars.size() == 1);
     const double scalar_error = (*high - *low) / 4095.0 / 2.0 * 1.001;
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
       REQUIRE(largest_difference(back.mesh.positions[v], mesh.positions[v]) <=
               report.position_error);
-      REQUIRE(std::abs(back.scalars[0].values[v] - scalars.values[v]) <= scalar_error);
+      REQUIRE(std::abs(back.mesh.scalars[0].values[v] - scalars.values[v]) <= scalar_error);
       const Vec3& n = back.mesh.normals[v];
       const Vec3& m = mesh.normals[v];
       const double sine = std::hypot(n[1] * m[2] - n[2] * m[1], n[2] * m[0] - n[0] * m[2],
@@ -88,7 +86,7 @@ TEST_CASE("edgebreaker draco keeps the shape at every speed") {
   for (const int speed : {0, 3, 5, 10}) {
     CAPTURE(speed);
     const auto report =
-        difmesh::write_gltf(folder / "m.glb", mesh, {.draco = {{.cell_size = 1, .speed = speed}}});
+        difmesh::write_mesh(folder / "m.glb", mesh, {.draco = {{.cell_size = 1, .speed = speed}}});
     CHECK(report.position_error <= 1e-3);
     const Mesh back = difmesh::read_mesh(folder / "m.glb");
     check_by_ids(back, mesh, report.position_error);
@@ -107,13 +105,14 @@ TEST_CASE("the default position bits keep errors within a thousandth of a cell")
   const TempFolder folder;
   for (const std::int64_t cells : {8, 16, 48}) {
     const Mesh mesh = test::ball(cells, {0, 0, 0}, 0.125);
-    const auto report = difmesh::write_drc(folder / "m.drc", mesh, {.draco = {.cell_size = 0.125}});
+    const auto report =
+        difmesh::write_mesh(folder / "m.drc", mesh, {.draco = {{.cell_size = 0.125}}});
     CHECK(report.position_error <= 1.01e-3 * 0.125);
     // One bit less would not do.
-    const auto less = difmesh::write_drc(folder / "less.drc", mesh,
-                                         {.draco = {.position_bits = report.position_bits - 1}});
+    const auto less = difmesh::write_mesh(folder / "less.drc", mesh,
+                                          {.draco = {{.position_bits = report.position_bits - 1}}});
     CHECK(less.position_error > 1e-3 * 0.125);
-    const auto guessed = difmesh::write_drc(folder / "m.drc", mesh);
+    const auto guessed = difmesh::write_mesh(folder / "m.drc", mesh);
     CHECK(std::abs(guessed.position_bits - report.position_bits) <= 1);
   }
 }
@@ -125,10 +124,10 @@ TEST_CASE("the error of draco holds away from the origin too") {
   for (const double place : {0.0, 300.0, 1500.0, 2500.0, 1e6}) {
     CAPTURE(place);
     const Mesh mesh = test::ball(16, {place, -place, place});
-    const auto drc = difmesh::write_drc(folder / "m.drc", mesh, {.draco = draco});
+    const auto drc = difmesh::write_mesh(folder / "m.drc", mesh, {.draco = draco});
     CHECK(largest_difference(difmesh::read_mesh(folder / "m.drc").positions, mesh.positions) <=
           drc.position_error);
-    const auto glb = difmesh::write_gltf(folder / "m.glb", mesh,
+    const auto glb = difmesh::write_mesh(folder / "m.glb", mesh,
                                          {.draco = draco, .local_origin = Vec3{0, 0, 0}});
     CHECK(largest_difference(difmesh::read_mesh(folder / "m.glb").positions, mesh.positions) <=
           glb.position_error);
@@ -137,23 +136,24 @@ TEST_CASE("the error of draco holds away from the origin too") {
 
 TEST_CASE("drc files come back with ids and scalars and their place") {
   const TempFolder folder;
-  const Mesh near = test::ball(16);
-  const Mesh far = test::ball(16, {1e6, -1e6, 1e6}, 1e-3);
+  Mesh near = test::ball(16);
+  Mesh far = test::ball(16, {1e6, -1e6, 1e6}, 1e-3);
+  near.scalars = {squares(near)};
+  far.scalars = {squares(far)};
   for (const Mesh* mesh : {&near, &far}) {
     const double spacing = mesh == &near ? 1.0 : 1e-3;
-    const VertexScalars scalars = squares(*mesh);
-    const auto report = difmesh::write_drc(folder / "m.drc", *mesh,
-                                           {.scalars = {scalars}, .draco = {.cell_size = spacing}});
+    const auto report =
+        difmesh::write_mesh(folder / "m.drc", *mesh, {.draco = {{.cell_size = spacing}}});
     const std::string bytes = test::read_bytes(folder / "m.drc");
     CHECK(report.bytes == static_cast<std::int64_t>(bytes.size()));
     CHECK((bytes.find("difmesh_origin") != std::string::npos) == (mesh == &far));
     CHECK((report.local_origin != Vec3{0, 0, 0}) == (mesh == &far));
-    const ScalarMesh back = difmesh::read_drc(folder / "m.drc");
+    const MeshFile back = difmesh::read_mesh_file(folder / "m.drc");
     CHECK(report.position_error <= 1.01e-3 * spacing);
     // The rounding of float64 at 1e6 comes on top.
     check_by_ids(back.mesh, *mesh, report.position_error + (mesh == &far ? 3e-10 : 0.0));
-    REQUIRE(back.scalars.size() == 1);
-    CHECK(back.scalars[0].name == "square");
+    REQUIRE(back.mesh.scalars.size() == 1);
+    CHECK(back.mesh.scalars[0].name == "square");
   }
 }
 
@@ -164,7 +164,7 @@ TEST_CASE("draco packs soups that are no manifold") {
   mesh.triangles = {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}, {2, 2, 3}};
   for (const DracoMethod method : {DracoMethod::edgebreaker, DracoMethod::sequential}) {
     const auto report =
-        difmesh::write_gltf(folder / "m.glb", mesh, {.draco = {{.method = method}}});
+        difmesh::write_mesh(folder / "m.glb", mesh, {.draco = {{.method = method}}});
     const Mesh back = difmesh::read_mesh(folder / "m.glb");
     CHECK(report.vertices == static_cast<std::int64_t>(back.positions.size()));
     CHECK(report.triangles == static_cast<std::int64_t>(back.triangles.size()));
@@ -175,21 +175,22 @@ TEST_CASE("draco packs soups that are no manifold") {
 
 TEST_CASE("draco refuses what it cannot hold and says why") {
   const TempFolder folder;
-  const auto refused = [&](const Mesh& mesh, const difmesh::WriteDrcOptions& options,
+  const auto refused = [&](const Mesh& mesh, const difmesh::WriteMeshOptions& options,
                            std::initializer_list<std::string> words, ErrorCode code) {
-    test::check_error([&] { difmesh::write_drc(folder / "m.drc", mesh, options); }, code, words);
+    test::check_error([&] { difmesh::write_mesh(folder / "m.drc", mesh, options); }, code, words);
     CHECK(folder.names().empty());
   };
   refused({}, {}, {"no triangles"}, ErrorCode::invalid_value);
   const Mesh mesh = test::sheet(3);
-  refused(mesh, {.draco = {.normal_bits = 1}}, {"normal_bits is 1"}, ErrorCode::invalid_argument);
-  refused(mesh, {.draco = {.cell_size = -1}}, {"cell_size"}, ErrorCode::invalid_argument);
-  refused(mesh, {.scalars = {{"k", {}}}}, {"0 values"}, ErrorCode::invalid_argument);
+  refused(mesh, {.draco = {{.normal_bits = 1}}}, {"normal_bits is 1"}, ErrorCode::invalid_argument);
+  refused(mesh, {.draco = {{.cell_size = -1}}}, {"cell_size"}, ErrorCode::invalid_argument);
+  refused(test::with_scalars(mesh, {{"k", {}}}), {}, {"0 values"}, ErrorCode::invalid_argument);
 }
 
 TEST_CASE("vertices that no triangle uses cost the surface nothing") {
   const TempFolder folder;
-  const Mesh mesh = test::ball(12, {5e5, 5.4e6, 300}, 0.01);
+  Mesh mesh = test::ball(12, {5e5, 5.4e6, 300}, 0.01);
+  mesh.scalars = {squares(mesh)};
   Mesh stray = mesh;
   stray.positions.insert(stray.positions.begin(), {0, 0, 0});
   stray.positions.push_back({1e9, -1e9, 3});
@@ -200,32 +201,28 @@ TEST_CASE("vertices that no triangle uses cost the surface nothing") {
   for (difmesh::Triangle& t : stray.triangles) {
     t = {t[0] + 1, t[1] + 1, t[2] + 1};
   }
-  const VertexScalars scalars = squares(mesh);
-  VertexScalars stray_scalars = scalars;
-  stray_scalars.values.insert(stray_scalars.values.begin(), -1e30);
-  stray_scalars.values.push_back(1e30);
+  stray.scalars = mesh.scalars;
+  stray.scalars[0].values.insert(stray.scalars[0].values.begin(), -1e30);
+  stray.scalars[0].values.push_back(1e30);
   for (const char* name : {"m.glb", "m.gltf", "m.drc", "c.glb"}) {
     for (const DracoMethod method : {DracoMethod::edgebreaker, DracoMethod::sequential}) {
       CAPTURE(name);
       const difmesh::DracoOptions draco{.method = method};
-      const auto write = [&](const Mesh& what, const VertexScalars& with) {
-        if (name == std::string("m.drc")) {
-          return difmesh::write_drc(folder / name, what, {.scalars = {with}, .draco = draco});
-        }
-        difmesh::WriteGltfOptions options{.scalars = {with}};
-        if (name == std::string("c.glb")) {
+      const auto write = [&](const Mesh& what) {
+        difmesh::WriteMeshOptions options;
+        if (name == std::string("m.drc") || name == std::string("c.glb")) {
           options.draco = draco;
         }
-        return difmesh::write_gltf(folder / name, what, options);
+        return difmesh::write_mesh(folder / name, what, options);
       };
-      const auto plain = write(mesh, scalars);
+      const auto plain = write(mesh);
       const std::string bytes = test::read_bytes(folder / name);
-      const auto report = write(stray, stray_scalars);
+      const auto report = write(stray);
       CHECK(test::read_bytes(folder / name) == bytes);  // ranges, boxes, origin and all
       CHECK(report.vertices == static_cast<std::int64_t>(mesh.positions.size()));
       CHECK(report.position_error == plain.position_error);
       CHECK(report.position_error < 1e-5 * 1.01);
-      const ScalarMesh back = difmesh::read_scalar_mesh(folder / name);
+      const MeshFile back = difmesh::read_mesh_file(folder / name);
       // float64 itself has steps of 1e-9 there.
       check_by_ids(back.mesh, mesh, report.position_error + 2e-9);
       CHECK(difmesh::measure(back.mesh).volume ==
@@ -240,8 +237,8 @@ TEST_CASE("draco holds meshes with more vertices than three per triangle") {
   mesh.positions = {{1, 0, 0}, {0, 1, 0}, {7, 7, 7}, {0, 0, 1}, {0.5, 0.5, 0.5}};
   mesh.triangles = {{0, 1, 3}};
   for (const DracoMethod method : {DracoMethod::edgebreaker, DracoMethod::sequential}) {
-    difmesh::write_drc(folder / "m.drc", mesh, {.draco = {.method = method}});
-    difmesh::write_gltf(folder / "m.glb", mesh, {.draco = {{.method = method}}});
+    difmesh::write_mesh(folder / "m.drc", mesh, {.draco = {{.method = method}}});
+    difmesh::write_mesh(folder / "m.glb", mesh, {.draco = {{.method = method}}});
     for (const char* name : {"m.drc", "m.glb"}) {
       const Mesh back = difmesh::read_mesh(folder / name);
       CHECK(back.positions.size() == 3);
@@ -255,19 +252,19 @@ TEST_CASE("drc: normals and scalars that are not finite are left out") {
   // A float that both attributes hold and no position, so that its bytes can be found and changed.
   Mesh mesh = test::sheet(3);
   mesh.normals.assign(9, {0, 0, 1});
-  const VertexScalars scalars{"k", difmesh::Array<double>(9, 0.3)};
-  difmesh::write_drc(folder / "m.drc", mesh, {.scalars = {scalars}});
+  mesh.scalars = {{"k", difmesh::Array<double>(9, 0.3)}};
+  difmesh::write_mesh(folder / "m.drc", mesh);
   std::string bytes = test::read_bytes(folder / "m.drc");
-  CHECK(difmesh::read_scalar_mesh(folder / "m.drc").warnings.empty());
+  CHECK(difmesh::read_mesh_file(folder / "m.drc").warnings.empty());
   // The low end of the scalars' range, from which all are counted.
   const std::size_t low = bytes.find(test::bytes_of(0.3F));
   REQUIRE(low != std::string::npos);
   bytes.replace(low, 4, test::bytes_of(std::numeric_limits<float>::quiet_NaN()));
   const auto path = folder.file("m.drc", bytes);
-  const ScalarMesh found = difmesh::read_scalar_mesh(path);
+  const MeshFile found = difmesh::read_mesh_file(path);
   CHECK(found.mesh.triangles.size() == 8);
   CHECK(found.mesh.normals.size() == 9);
-  CHECK(found.scalars.empty());
+  CHECK(found.mesh.scalars.empty());
   REQUIRE(found.warnings.size() == 1);
   CHECK(found.warnings[0] ==
         "'" + path.string() + "': the attribute 'k' is not finite everywhere, and was left out.");
@@ -282,7 +279,7 @@ TEST_CASE("drc: vertices that are not finite are left out where no triangle uses
     bytes += test::bytes_of(x);
   }
   const TempFolder folder;
-  const ScalarMesh found = difmesh::read_scalar_mesh(folder.file("m.drc", bytes));
+  const MeshFile found = difmesh::read_mesh_file(folder.file("m.drc", bytes));
   CHECK(found.mesh.positions == difmesh::Array<Vec3>{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}});
   CHECK(found.mesh.triangles == difmesh::Array<difmesh::Triangle>{{0, 1, 2}, {0, 2, 1}});
   CHECK(found.warnings.size() == 1);
@@ -338,7 +335,7 @@ TEST_CASE("drc: no beginning of a good file is good and no changed byte harms") 
   const TempFolder folder;
   const Mesh mesh = test::ball(4);
   for (const DracoMethod method : {DracoMethod::edgebreaker, DracoMethod::sequential}) {
-    difmesh::write_drc(folder / "m.drc", mesh, {.draco = {.method = method}});
+    difmesh::write_mesh(folder / "m.drc", mesh, {.draco = {{.method = method}}});
     const std::string bytes = test::read_bytes(folder / "m.drc");
     for (std::size_t length = 0; length < bytes.size(); ++length) {
       const auto path = folder.file("m.drc", bytes.substr(0, length));

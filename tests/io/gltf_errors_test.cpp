@@ -3,7 +3,6 @@
 #include <functional>
 #include <string>
 
-#include "difmesh/io/gltf_file.hpp"
 #include "difmesh/io/mesh_file.hpp"
 #include "io/surfaces.hpp"
 
@@ -18,11 +17,11 @@ using test::TempFolder;
 const Glb& good(bool draco) {
   static const auto make = [](bool compressed) {
     const TempFolder folder;
-    difmesh::WriteGltfOptions options;
+    difmesh::WriteMeshOptions options;
     if (compressed) {
       options.draco = difmesh::DracoOptions{};
     }
-    difmesh::write_gltf(folder / "m.glb", test::ball(6), options);
+    difmesh::write_mesh(folder / "m.glb", test::ball(6), options);
     return Glb(test::read_bytes(folder / "m.glb"));
   };
   static const Glb plain = make(false);
@@ -298,12 +297,13 @@ TEST_CASE("glb: no beginning of a good file is good and no changed byte harms") 
   const TempFolder folder;
   Mesh mesh = test::sheet(3);
   mesh.edge_ids.resize(9, 7);
+  mesh.scalars = {{"k", difmesh::Array<double>(9, 0.5)}};
   for (const bool compressed : {false, true}) {
-    difmesh::WriteGltfOptions options{.scalars = {{"k", difmesh::Array<double>(9, 0.5)}}};
+    difmesh::WriteMeshOptions options;
     if (compressed) {
       options.draco = difmesh::DracoOptions{};
     }
-    difmesh::write_gltf(folder / "m.glb", mesh, options);
+    difmesh::write_mesh(folder / "m.glb", mesh, options);
     const std::string bytes = test::read_bytes(folder / "m.glb");
     for (std::size_t length = 0; length < bytes.size(); length += 3) {
       const auto path = folder.file("m.glb", bytes.substr(0, length));

@@ -1,11 +1,10 @@
-#include "difmesh/io/gltf_file.hpp"
-
 #include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "difmesh/io/glb.hpp"
 #include "difmesh/io/mesh_file.hpp"
 #include "difmesh/measure.hpp"
 #include "gltf_write.hpp"
@@ -16,17 +15,17 @@ namespace {
 
 using difmesh::ErrorCode;
 using difmesh::Mesh;
-using difmesh::ScalarMesh;
+using difmesh::MeshFile;
 using difmesh::Triangle;
 using difmesh::Vec3;
-using difmesh::VertexScalars;
+using difmesh::VertexScalar;
 using difmesh::test::largest_difference;
 using test::Glb;
 using test::Json;
 using test::TempFolder;
 
-VertexScalars heights(const Mesh& mesh) {
-  VertexScalars scalars{"height", {}};
+VertexScalar heights(const Mesh& mesh) {
+  VertexScalar scalars{"height", {}};
   for (const Vec3& position : mesh.positions) {
     scalars.values.push_back(position[2]);
   }
@@ -55,24 +54,25 @@ void check_float_rounded(const Mesh& back, const Mesh& mesh, const Vec3& origin)
 
 TEST_CASE("glb and gltf give back positions to float32 about the centre and all the rest") {
   const TempFolder folder;
-  const Mesh mesh = test::ball(16, {3.3, -7.1, 0.2}, 0.37);
-  const VertexScalars scalars = heights(mesh);
+  Mesh mesh = test::ball(16, {3.3, -7.1, 0.2}, 0.37);
+  const VertexScalar scalars = heights(mesh);
+  mesh.scalars = {scalars};
   for (const char* name : {"m.glb", "m.gltf", "M.GLB"}) {
     CAPTURE(name);
-    const auto report = difmesh::write_gltf(folder / name, mesh, {.scalars = {scalars}});
+    const auto report = difmesh::write_mesh(folder / name, mesh);
     CHECK(report.bytes == static_cast<std::int64_t>(test::read_bytes(folder / name).size()));
     CHECK(report.local_origin == middle(mesh));
-    const ScalarMesh back = difmesh::read_gltf(folder / name);
+    const MeshFile back = difmesh::read_mesh_file(folder / name);
     check_float_rounded(back.mesh, mesh, report.local_origin);
     CHECK(largest_difference(back.mesh.positions, mesh.positions) <= report.position_error);
     CHECK(back.mesh.triangles == mesh.triangles);
     CHECK(back.mesh.edge_ids == mesh.edge_ids);
     CHECK(largest_difference(back.mesh.normals, mesh.normals) < 1e-7);
-    REQUIRE(back.scalars.size() == 1);
-    CHECK(back.scalars[0].name == "height");
-    REQUIRE(back.scalars[0].values.size() == mesh.positions.size());
+    REQUIRE(back.mesh.scalars.size() == 1);
+    CHECK(back.mesh.scalars[0].name == "height");
+    REQUIRE(back.mesh.scalars[0].values.size() == mesh.positions.size());
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-      REQUIRE(back.scalars[0].values[v] ==
+      REQUIRE(back.mesh.scalars[0].values[v] ==
               static_cast<double>(static_cast<float>(mesh.positions[v][2])));
     }
   }
@@ -105,41 +105,39 @@ TEST_CASE("write_mesh and read_mesh know glb and gltf and drc") {
 
 TEST_CASE("scalars come with the mesh from the formats that have them") {
   const TempFolder folder;
-  const Mesh mesh = test::ball(8);
-  const VertexScalars scalars = heights(mesh);
-  difmesh::write_gltf(folder / "m.glb", mesh, {.scalars = {scalars}});
-  difmesh::write_drc(folder / "m.drc", mesh, {.scalars = {scalars}});
-  difmesh::write_mesh(folder / "m.ply", mesh);
-  for (const char* name : {"m.glb", "m.drc", "m.ply"}) {
+  Mesh mesh = test::ball(8);
+  mesh.scalars = {heights(mesh)};
+  for (const difmesh::MeshFormat& format : difmesh::mesh_formats()) {
+    const std::string name = "m" + std::string(format.extension);
     CAPTURE(name);
-    const ScalarMesh back = difmesh::read_scalar_mesh(folder / name);
+    difmesh::write_mesh(folder / name, mesh, {.scalars = false});
+    CHECK(difmesh::read_mesh(folder / name).scalars.empty());
+    difmesh::write_mesh(folder / name, mesh);
+    const MeshFile back = difmesh::read_mesh_file(folder / name);
     CHECK(back.mesh.positions.size() == mesh.positions.size());
-    const bool with_scalars = difmesh::mesh_format_of(name) != difmesh::MeshFormat::ply;
-    REQUIRE(back.scalars.size() == (with_scalars ? 1 : 0));
-    CHECK((!with_scalars || back.scalars[0].name == "height"));
+    REQUIRE(back.mesh.scalars.size() == (format.scalars ? 1 : 0));
+    CHECK((!format.scalars || back.mesh.scalars[0].name == "height"));
   }
-  CHECK(difmesh::mesh_format_of("a/b.GLTF") == difmesh::MeshFormat::gltf);
-  CHECK(!difmesh::mesh_format_of("a.glb/b"));
 }
 
 TEST_CASE("the format of glTF is that of the options or else of the extension") {
   const TempFolder folder;
   const Mesh mesh = test::ball(8);
-  difmesh::write_gltf(folder / "any", mesh, {.binary = true});
-  difmesh::write_gltf(folder / "m.glb", mesh);
+  difmesh::write_mesh(folder / "any", mesh, {.format = ".glb"});
+  difmesh::write_mesh(folder / "m.glb", mesh);
   CHECK(test::read_bytes(folder / "any") == test::read_bytes(folder / "m.glb"));
-  difmesh::write_gltf(folder / "m.glb", mesh, {.binary = false});
-  difmesh::write_gltf(folder / "m.gltf", mesh);
+  difmesh::write_mesh(folder / "m.glb", mesh, {.format = "gltf"});
+  difmesh::write_mesh(folder / "m.gltf", mesh);
   CHECK(test::read_bytes(folder / "m.glb") == test::read_bytes(folder / "m.gltf"));
-  test::check_error([&] { difmesh::write_gltf(folder / "m.ply", mesh); },
-                    ErrorCode::invalid_argument, {"m.ply", ".glb and .gltf"});
+  test::check_error([&] { difmesh::write_mesh(folder / "m.glb", mesh, {.format = ".xyz"}); },
+                    ErrorCode::invalid_argument, {"m.glb", "'.xyz'", ".glb, .gltf and .drc"});
 }
 
 TEST_CASE("a small surface far from zero keeps its digits") {
   const TempFolder folder;
   const double spacing = 1e-3;
   const Mesh mesh = test::ball(100, {1e6, 1e6, 1e6}, spacing);
-  const auto report = difmesh::write_gltf(folder / "m.glb", mesh);
+  const auto report = difmesh::write_mesh(folder / "m.glb", mesh);
   const Glb glb(test::read_bytes(folder / "m.glb"));
   const Json& node = glb.json.at("nodes").at(0);
   Vec3 translation{};
@@ -159,7 +157,7 @@ TEST_CASE("a small surface far from zero keeps its digits") {
   CHECK(worst <= 1e-5 * spacing);
   CHECK(worst <= report.position_error);
   // Without the local origin float32 has nothing left: its step at 1e6 is 62 cells.
-  difmesh::write_gltf(folder / "m.glb", mesh, {.local_origin = Vec3{0, 0, 0}});
+  difmesh::write_mesh(folder / "m.glb", mesh, {.local_origin = Vec3{0, 0, 0}});
   CHECK(largest_difference(difmesh::read_mesh(folder / "m.glb").positions, mesh.positions) >
         10 * spacing);
 }
@@ -172,7 +170,7 @@ TEST_CASE("min and max are exact and indices as short as they can be") {
     std::erase_if(mesh.triangles, [&](const Triangle& t) {
       return std::max({t[0], t[1], t[2]}) >= vertices;
     });
-    difmesh::write_gltf(folder / "m.glb", mesh);
+    difmesh::write_mesh(folder / "m.glb", mesh);
     const Glb glb(test::read_bytes(folder / "m.glb"));
     const Json& indices =
         glb.json.at("accessors").at(glb.primitive().at("indices").get<std::size_t>());
@@ -192,7 +190,7 @@ TEST_CASE("normals of a mesh without any are those of the triangles around") {
   Mesh mesh = test::sheet(4);
   mesh.positions.push_back({9, 9, 9});
   mesh.triangles.push_back({16, 16, 16});  // no area, so no normal of its own
-  difmesh::write_gltf(folder / "m.glb", mesh);
+  difmesh::write_mesh(folder / "m.glb", mesh);
   const Mesh back = difmesh::read_mesh(folder / "m.glb");
   REQUIRE(back.normals.size() == 17);
   for (const Vec3& normal : back.normals) {
@@ -201,7 +199,7 @@ TEST_CASE("normals of a mesh without any are those of the triangles around") {
   // On a ball they are close to the true ones.
   Mesh ball = test::ball(32);
   ball.normals.clear();
-  difmesh::write_gltf(folder / "m.glb", ball);
+  difmesh::write_mesh(folder / "m.glb", ball);
   const Vec3 centre{16.1, 16.0, 16.0};
   for (std::size_t v = 0; const Vec3& normal : difmesh::read_mesh(folder / "m.glb").normals) {
     double dot = 0.0;
@@ -216,7 +214,7 @@ TEST_CASE("normals of a mesh without any are those of the triangles around") {
 TEST_CASE("z up and the unit are in a root node that reading leaves out") {
   const TempFolder folder;
   const Mesh mesh = test::ball(10);
-  difmesh::write_gltf(folder / "m.glb", mesh, {.up = difmesh::UpAxis::z, .metres_per_unit = 0.001});
+  difmesh::write_mesh(folder / "m.glb", mesh, {.up = difmesh::UpAxis::z, .metres_per_unit = 0.001});
   const Glb glb(test::read_bytes(folder / "m.glb"));
   const Json& root =
       glb.json.at("nodes").at(glb.json.at("scenes").at(0).at("nodes").at(0).get<std::size_t>());
@@ -244,12 +242,12 @@ TEST_CASE("z up and the unit are in a root node that reading leaves out") {
 
 TEST_CASE("split meshes have small primitives and come back whole") {
   const TempFolder folder;
-  const Mesh mesh = test::ball(20);
-  difmesh::write_gltf(folder / "whole.glb", mesh, {.scalars = {heights(mesh)}});
-  const ScalarMesh whole = difmesh::read_gltf(folder / "whole.glb");
+  Mesh mesh = test::ball(20);
+  mesh.scalars = {heights(mesh)};
+  difmesh::write_mesh(folder / "whole.glb", mesh);
+  const MeshFile whole = difmesh::read_mesh_file(folder / "whole.glb");
   for (const std::int64_t most : {3, 4, 300}) {
-    const auto report = difmesh::write_gltf(folder / "m.glb", mesh,
-                                            {.scalars = {heights(mesh)}, .most_vertices = most});
+    const auto report = difmesh::write_mesh(folder / "m.glb", mesh, {.most_vertices = most});
     const Glb glb(test::read_bytes(folder / "m.glb"));
     const std::size_t parts = glb.json.at("meshes").at(0).at("primitives").size();
     CHECK(static_cast<std::int64_t>(parts) == report.primitives);
@@ -257,13 +255,13 @@ TEST_CASE("split meshes have small primitives and come back whole") {
     for (std::size_t p = 0; p < parts; ++p) {
       REQUIRE(glb.attribute("POSITION", p).at("count") <= most);
     }
-    const ScalarMesh back = difmesh::read_gltf(folder / "m.glb");
+    const MeshFile back = difmesh::read_mesh_file(folder / "m.glb");
     CHECK(back.mesh.positions == whole.mesh.positions);
     CHECK(back.mesh.triangles == whole.mesh.triangles);
     CHECK(back.mesh.normals == whole.mesh.normals);
     CHECK(back.mesh.edge_ids == whole.mesh.edge_ids);
-    CHECK(back.scalars[0].values == whole.scalars[0].values);
-    difmesh::write_gltf(folder / "d.glb", mesh, {.draco = {{}}, .most_vertices = most + 97});
+    CHECK(back.mesh.scalars[0].values == whole.mesh.scalars[0].values);
+    difmesh::write_mesh(folder / "d.glb", mesh, {.draco = {{}}, .most_vertices = most + 97});
     const difmesh::Measure m = difmesh::measure(difmesh::read_mesh(folder / "d.glb"));
     CHECK(m.closed);
     CHECK(m.vertices == static_cast<std::int64_t>(mesh.positions.size()));
@@ -272,10 +270,10 @@ TEST_CASE("split meshes have small primitives and come back whole") {
 
 TEST_CASE("colours follow the map between the ends of the range") {
   const TempFolder folder;
-  const Mesh mesh = test::sheet(3);
-  VertexScalars scalars{"k", {-2, -1, 0, 1, 2, 3, 4, 5, 6}};
+  Mesh mesh = test::sheet(3);
+  mesh.scalars = {{"k", {-2, -1, 0, 1, 2, 3, 4, 5, 6}}};
   const auto colour_at = [&](const difmesh::ColourBy& by, std::size_t v) {
-    difmesh::write_gltf(folder / "m.glb", mesh, {.scalars = {scalars}, .colour = by});
+    difmesh::write_mesh(folder / "m.glb", mesh, {.colour = by});
     const Glb glb(test::read_bytes(folder / "m.glb"));
     const Json& accessor = glb.attribute("COLOR_0");
     CHECK(accessor.at("normalized") == true);
@@ -311,27 +309,28 @@ TEST_CASE("colours follow the map between the ends of the range") {
 TEST_CASE("names and numbers that glTF cannot hold are refused before a file is made") {
   const TempFolder folder;
   const Mesh mesh = test::sheet(3);
-  const auto refused = [&](const Mesh& m, const difmesh::WriteGltfOptions& options,
+  const auto refused = [&](const Mesh& m, const difmesh::WriteMeshOptions& options,
                            std::initializer_list<std::string> words,
                            ErrorCode code = ErrorCode::invalid_argument) {
-    test::check_error([&] { difmesh::write_gltf(folder / "m.glb", m, options); }, code, words);
+    test::check_error([&] { difmesh::write_mesh(folder / "m.glb", m, options); }, code, words);
     CHECK(folder.names().empty());
   };
-  const VertexScalars nine{"k", difmesh::Array<double>(9, 1.0)};
+  const VertexScalar nine{"k", difmesh::Array<double>(9, 1.0)};
   refused({}, {}, {"m.glb", "no triangles"}, ErrorCode::invalid_value);
   Mesh points;
   points.positions = mesh.positions;
   refused(points, {}, {"no triangles"}, ErrorCode::invalid_value);
-  refused(mesh, {.scalars = {{"k", {1, 2}}}}, {"2 values of 'k' for 9 vertices"});
-  refused(mesh, {.scalars = {{"", nine.values}}}, {"''"});
-  refused(mesh, {.scalars = {{"a b", nine.values}}}, {"'a b'"});
-  refused(mesh, {.scalars = {nine, {"K", nine.values}}}, {"'K'", "taken"});
-  refused(mesh, {.scalars = {{"edge_id", nine.values}}}, {"'edge_id'", "taken"});
-  VertexScalars bad = nine;
+  refused(test::with_scalars(mesh, {{"k", {1, 2}}}), {}, {"2 values of 'k' for 9 vertices"});
+  refused(test::with_scalars(mesh, {{"", nine.values}}), {}, {"''"});
+  refused(test::with_scalars(mesh, {{"a b", nine.values}}), {}, {"'a b'"});
+  refused(test::with_scalars(mesh, {nine, {"K", nine.values}}), {}, {"'K'", "taken"});
+  refused(test::with_scalars(mesh, {{"edge_id", nine.values}}), {}, {"'edge_id'", "taken"});
+  VertexScalar bad = nine;
   bad.values[4] = std::numeric_limits<double>::quiet_NaN();
-  refused(mesh, {.scalars = {bad}}, {"'k' of vertex 4 is nan"}, ErrorCode::invalid_value);
+  refused(test::with_scalars(mesh, {bad}), {}, {"'k' of vertex 4 is nan"},
+          ErrorCode::invalid_value);
   refused(mesh, {.colour = {{"k"}}}, {"'k'", "none of the scalars"});
-  refused(mesh, {.scalars = {nine}, .colour = {{"k", {}, {{1, 0}}}}}, {"1 to 0"});
+  refused(test::with_scalars(mesh, {nine}), {.colour = {{"k", {}, {{1, 0}}}}}, {"1 to 0"});
   refused(mesh, {.metres_per_unit = 0.0}, {"metres_per_unit is 0"});
   refused(mesh, {.local_origin = Vec3{0, NAN, 0}}, {"local_origin"});
   refused(mesh, {.most_vertices = 2}, {"most_vertices is 2"});
@@ -345,8 +344,6 @@ TEST_CASE("names and numbers that glTF cannot hold are refused before a file is 
     p = {p[0] * 1e-40, p[1] * 1e-40, 0};
   }
   refused(tiny, {}, {"1e-40", "larger unit"}, ErrorCode::invalid_value);
-  test::check_error([&] { difmesh::write_gltf(folder / "m.ply", mesh); },
-                    ErrorCode::invalid_argument, {"'.ply'", ".glb"});
 }
 
 TEST_CASE("files beyond 4 GiB are refused by their size alone") {

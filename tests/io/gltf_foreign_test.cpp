@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base64.hpp"
-#include "difmesh/io/gltf_file.hpp"
+#include "difmesh/io/mesh_file.hpp"
 #include "difmesh/measure.hpp"
 #include "io/surfaces.hpp"
 
@@ -58,9 +58,9 @@ class Builder {
   Json& primitive() { return json()["meshes"][0]["primitives"][0]; }
   Json& json() { return glb_.json; }
   [[nodiscard]] const Glb& glb() const { return glb_; }
-  [[nodiscard]] difmesh::ScalarMesh read() const {
+  [[nodiscard]] difmesh::MeshFile read() const {
     const TempFolder folder;
-    return difmesh::read_gltf(folder.file("m.glb", glb_.bytes()));
+    return difmesh::read_mesh_file(folder.file("m.glb", glb_.bytes()));
   }
 
  private:
@@ -110,12 +110,12 @@ TEST_CASE("gltf: quantised and interleaved attributes") {
   builder.json()["accessors"].push_back(scalar);
   builder.primitive()["attributes"]["_Share"] = 1;
   builder.json()["extensionsRequired"] = {"KHR_mesh_quantization"};
-  const difmesh::ScalarMesh found = builder.read();
+  const difmesh::MeshFile found = builder.read();
   CHECK(found.mesh.positions ==
         difmesh::Array<Vec3>{{1, 0, -1}, {0, 16384.0 / 32767.0, 1.0 / 32767.0}, {-1, 1, 0}});
-  REQUIRE(found.scalars.size() == 1);
-  CHECK(found.scalars[0].name == "share");
-  CHECK(found.scalars[0].values == difmesh::Array<double>{1.0, 0.0, 0.2});
+  REQUIRE(found.mesh.scalars.size() == 1);
+  CHECK(found.mesh.scalars[0].name == "share");
+  CHECK(found.mesh.scalars[0].values == difmesh::Array<double>{1.0, 0.0, 0.2});
 }
 
 TEST_CASE("gltf: nodes move and turn and mirror and nest and share meshes") {
@@ -175,12 +175,13 @@ TEST_CASE("gltf: data in other files of the folder and in base64") {
   Json json = builder.json();
   json["buffers"][0]["uri"] = "my%20data.bin";
   (void)folder.file("my data.bin", builder.glb().data + "more");
-  const Mesh mesh = difmesh::read_gltf(folder.file("m.gltf", json.dump())).mesh;
+  const Mesh mesh = difmesh::read_mesh_file(folder.file("m.gltf", json.dump())).mesh;
   CHECK(mesh.positions == builder.read().mesh.positions);
   json["buffers"][0]["uri"] =
       "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAA"
       "AAAAAAAAgD8AAAAAAACAPwAAgD8AAAAA";
-  CHECK(difmesh::read_gltf(folder.file("m.gltf", json.dump())).mesh.positions == mesh.positions);
+  CHECK(difmesh::read_mesh_file(folder.file("m.gltf", json.dump())).mesh.positions ==
+        mesh.positions);
 }
 
 TEST_CASE("gltf: what only one of two primitives has is left out") {
@@ -191,10 +192,10 @@ TEST_CASE("gltf: what only one of two primitives has is left out") {
   second["attributes"]["_K"] = builder.add(
       std::string(16, '\0'), {{"componentType", 5126}, {"count", 4}, {"type", "SCALAR"}});
   builder.json()["meshes"][0]["primitives"].push_back(second);
-  CHECK(builder.read().scalars.empty());
+  CHECK(builder.read().mesh.scalars.empty());
   CHECK(builder.read().mesh.positions.size() == 8);
   builder.json()["meshes"][0]["primitives"].erase(0);
-  CHECK(builder.read().scalars.size() == 1);
+  CHECK(builder.read().mesh.scalars.size() == 1);
 }
 
 TEST_CASE("gltf: what viewers show otherwise is read with a warning that names it") {
@@ -202,10 +203,10 @@ TEST_CASE("gltf: what viewers show otherwise is read with a warning that names i
     Builder builder;
     builder.square();
     builder.primitive()["mode"] = 5;
-    const difmesh::ScalarMesh plain = builder.read();
+    const difmesh::MeshFile plain = builder.read();
     CHECK(plain.warnings.empty());
     change(builder);
-    const difmesh::ScalarMesh found = builder.read();
+    const difmesh::MeshFile found = builder.read();
     CHECK(found.mesh.positions == plain.mesh.positions);
     CHECK(found.mesh.triangles == plain.mesh.triangles);
     return found.warnings;
@@ -294,9 +295,9 @@ TEST_CASE("gltf: accessors without data are zero") {
   };
   builder.primitive()["attributes"]["_K"] =
       add({{"componentType", 5126}, {"count", 4}, {"type", "SCALAR"}});
-  difmesh::ScalarMesh found = builder.read();
-  REQUIRE(found.scalars.size() == 1);
-  CHECK(found.scalars[0].values == difmesh::Array<double>(4, 0.0));
+  difmesh::MeshFile found = builder.read();
+  REQUIRE(found.mesh.scalars.size() == 1);
+  CHECK(found.mesh.scalars[0].values == difmesh::Array<double>(4, 0.0));
   CHECK(found.mesh.triangles.size() == 2);
   builder.primitive()["attributes"]["POSITION"] =
       add({{"componentType", 5126}, {"count", 4}, {"type", "VEC3"}});
@@ -323,12 +324,12 @@ TEST_CASE("gltf: normals and scalars that are not finite are left out") {
         data.substr(16, 16), {{"componentType", 5126}, {"count", 4}, {"type", "SCALAR"}});
     builder.primitive()["attributes"]["_GOOD"] = builder.add(
         data.substr(0, 16), {{"componentType", 5126}, {"count", 4}, {"type", "SCALAR"}});
-    const difmesh::ScalarMesh found = builder.read();
+    const difmesh::MeshFile found = builder.read();
     CHECK(found.mesh.positions == plain.positions);
     CHECK(found.mesh.triangles == plain.triangles);
     CHECK(found.mesh.normals.empty());
-    REQUIRE(found.scalars.size() == 1);
-    CHECK(found.scalars[0].name == "good");
+    REQUIRE(found.mesh.scalars.size() == 1);
+    CHECK(found.mesh.scalars[0].name == "good");
     REQUIRE(found.warnings.size() == 1);
     CHECK(
         found.warnings[0].ends_with("meshes[0].primitives[0].attributes.NORMAL is not finite "
@@ -348,11 +349,11 @@ TEST_CASE("gltf: vertices that are not finite are left out where no triangle use
   builder.primitive()["attributes"]["_K"] = builder.add(
       std::string("\0\1\2\3", 4), {{"componentType", 5121}, {"count", 4}, {"type", "SCALAR"}});
   builder.indices(std::string("\0\2\3", 3), 5121, 3, 4);
-  const difmesh::ScalarMesh found = builder.read();
+  const difmesh::MeshFile found = builder.read();
   CHECK(found.mesh.positions == difmesh::Array<Vec3>{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}});
   CHECK(found.mesh.triangles == Triangles{{0, 1, 2}});
-  REQUIRE(found.scalars.size() == 1);
-  CHECK(found.scalars[0].values == difmesh::Array<double>{0, 2, 3});
+  REQUIRE(found.mesh.scalars.size() == 1);
+  CHECK(found.mesh.scalars[0].values == difmesh::Array<double>{0, 2, 3});
   REQUIRE(found.warnings.size() == 1);
   CHECK(found.warnings[0].find("meshes[0].primitives[0] has vertices without finite coordinates") !=
         std::string::npos);
@@ -402,7 +403,7 @@ TEST_CASE("gltf: long data in base64 beside other long texts") {
   json["images"] = {{{"uri", "data:image/png;base64," + zeros}}, {{"uri", zeros}}};
   json["asset"]["copyright"] = "\"data: \"" + zeros + "\"data:" + zeros;
   const auto read = [&](const std::string& text) {
-    return difmesh::read_gltf(folder.file("m.gltf", text)).mesh;
+    return difmesh::read_mesh_file(folder.file("m.gltf", text)).mesh;
   };
   const auto check = [&](const std::string& text) {
     CHECK(read(text).positions == wanted.positions);

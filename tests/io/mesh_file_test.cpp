@@ -88,49 +88,52 @@ void check_square(const Mesh& mesh) {
 
 TEST_CASE("scalars come back from ply bit for bit") {
   const TempFolder folder;
-  const Mesh mesh = awkward_mesh();
-  const std::vector<difmesh::VertexScalars> scalars{
+  Mesh mesh = awkward_mesh();
+  const std::vector<difmesh::VertexScalar> scalars{
       {"mean_curvature", {0.1, -2.0 / 7.0, 1e-300, 3e38, -0.0, 5.0}},
       {"Error_2", {1, 2, 3, 4, 5, 6}}};
-  difmesh::write_mesh(folder / "m.ply", mesh, {.scalars = scalars});
-  const difmesh::ScalarMesh back = difmesh::read_scalar_mesh(folder / "m.ply");
+  mesh.scalars = scalars;
+  difmesh::write_mesh(folder / "m.ply", mesh);
+  const difmesh::MeshFile back = difmesh::read_mesh_file(folder / "m.ply");
   CHECK(equal_bits(back.mesh.positions, mesh.positions));
   CHECK(equal_bits(back.mesh.normals, mesh.normals));
   CHECK(back.mesh.edge_ids == mesh.edge_ids);
   CHECK(back.mesh.triangles == mesh.triangles);
-  REQUIRE(back.scalars.size() == 2);
+  REQUIRE(back.mesh.scalars.size() == 2);
   for (std::size_t n = 0; n < 2; ++n) {
-    CHECK(back.scalars[n].name == scalars[n].name);
-    CHECK(back.scalars[n].values == scalars[n].values);
+    CHECK(back.mesh.scalars[n].name == scalars[n].name);
+    CHECK(back.mesh.scalars[n].values == scalars[n].values);
   }
   // Formats without a place for them leave them out.
   for (const std::string name : {"m.obj", "m.off"}) {
-    difmesh::write_mesh(folder / name, mesh, {.scalars = scalars});
-    CHECK(difmesh::read_scalar_mesh(folder / name).scalars.empty());
+    difmesh::write_mesh(folder / name, mesh);
+    CHECK(difmesh::read_mesh_file(folder / name).mesh.scalars.empty());
   }
 }
 
 TEST_CASE("float properties of foreign ply files are scalars and others are not") {
   const TempFolder folder;
-  const difmesh::ScalarMesh surface = difmesh::read_scalar_mesh(folder.file(
+  const difmesh::MeshFile surface = difmesh::read_mesh_file(folder.file(
       "m.ply",
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
       "property float z\nproperty uchar red\nproperty float quality\nproperty double u-v\n"
       "property float hole\nproperty float quality\nproperty float nx\nelement face 1\n"
       "property list uchar int vertex_indices\nend_header\n"
       "0 0 0 255 0.5 9 1 7 0\n1 0 0 0 1.5 9 nan 7 0\n0 1 0 3 -2 9 2 7 1\n3 0 1 2\n"));
-  REQUIRE(surface.scalars.size() == 1);
-  CHECK(surface.scalars[0].name == "quality");
-  CHECK(surface.scalars[0].values == difmesh::Array<double>{0.5, 1.5, -2.0});
+  REQUIRE(surface.mesh.scalars.size() == 1);
+  CHECK(surface.mesh.scalars[0].name == "quality");
+  CHECK(surface.mesh.scalars[0].values == difmesh::Array<double>{0.5, 1.5, -2.0});
   CHECK(surface.mesh.triangles.size() == 1);
 }
 
 TEST_CASE("scalars that do not fit a file are named") {
   const TempFolder folder;
   const Mesh mesh = awkward_mesh();
-  const auto fails = [&](const difmesh::VertexScalars& scalars, const std::string& words) {
+  const auto fails = [&](const difmesh::VertexScalar& scalars, const std::string& words) {
     try {
-      difmesh::write_mesh(folder / "m.ply", mesh, {.scalars = {scalars}});
+      Mesh with_scalars = mesh;
+      with_scalars.scalars = {scalars};
+      difmesh::write_mesh(folder / "m.ply", with_scalars);
     } catch (const difmesh::Error& error) {
       CAPTURE(error.what());
       CHECK(std::string(error.what()).find(words) != std::string::npos);

@@ -3,14 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "difmesh/io/gltf_file.hpp"
 #include "difmesh/io/mesh_file.hpp"
 #include "io/surfaces.hpp"
 #include "warnings.hpp"
 
 namespace {
 
-using difmesh::ScalarMesh;
+using difmesh::MeshFile;
 using test::TempFolder;
 using Text = std::string;
 using Texts = std::vector<std::string>;
@@ -20,13 +19,13 @@ using Texts = std::vector<std::string>;
 TEST_CASE("bytes behind a glb are left out with a warning") {
   const TempFolder folder;
   const difmesh::Mesh mesh = test::sheet(3);
-  difmesh::write_gltf(folder / "m.glb", mesh);
+  difmesh::write_mesh(folder / "m.glb", mesh);
   const std::string bytes = test::read_bytes(folder / "m.glb");
-  const ScalarMesh whole = difmesh::read_scalar_mesh(folder / "m.glb");
+  const MeshFile whole = difmesh::read_mesh_file(folder / "m.glb");
   CHECK(whole.warnings.empty());
   for (const std::string tail : {"x", "\n\n", "glTF\2\0\0\0 and more"}) {
     const auto path = folder.file("m.glb", bytes + tail);
-    const ScalarMesh found = difmesh::read_scalar_mesh(path);
+    const MeshFile found = difmesh::read_mesh_file(path);
     CHECK(found.mesh.positions == whole.mesh.positions);
     CHECK(found.mesh.triangles == mesh.triangles);
     CHECK(found.warnings ==

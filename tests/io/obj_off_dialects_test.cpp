@@ -226,7 +226,7 @@ TEST_CASE("off: binary files") {
 TEST_CASE("obj and off: what is left out is told") {
   const TempFolder folder;
   const auto warnings_of = [&](const std::string& name, const std::string& text) {
-    return difmesh::read_scalar_mesh(folder.file(name, text)).warnings;
+    return difmesh::read_mesh_file(folder.file(name, text)).warnings;
   };
   const auto check_told = [&](const std::string& name, const std::string& text,
                               const std::string& matter) {

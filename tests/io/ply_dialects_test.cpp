@@ -15,7 +15,7 @@
 namespace {
 
 using difmesh::ErrorCode;
-using difmesh::ScalarMesh;
+using difmesh::MeshFile;
 using test::bytes_of;
 using test::check_cube;
 using test::check_error;
@@ -89,14 +89,14 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text;
 }
 
-ScalarMesh read(const std::string& bytes) {
+MeshFile read(const std::string& bytes) {
   const TempFolder folder;
-  return difmesh::read_scalar_mesh(folder.file("m.ply", bytes));
+  return difmesh::read_mesh_file(folder.file("m.ply", bytes));
 }
 
 void check_silent_cube(const std::string& bytes) {
   CAPTURE(bytes);
-  const ScalarMesh mesh = read(bytes);
+  const MeshFile mesh = read(bytes);
   check_cube(mesh);
   CHECK(mesh.warnings.empty());
 }
@@ -125,7 +125,7 @@ TEST_CASE("ply is read whatever ends its lines") {
       for (const float number : {1.F, 2.F, 3.F}) {
         bytes += bytes_of(number);
       }
-      const ScalarMesh mesh = read(bytes);
+      const MeshFile mesh = read(bytes);
       REQUIRE(mesh.mesh.positions.size() == 1);
       CHECK(mesh.mesh.positions[0] == difmesh::Vec3{1, 2, 3});
     }
@@ -197,7 +197,7 @@ TEST_CASE("ply normals that are no numbers are left out with a warning") {
   const std::string elements = "element vertex 8\n" + kXyz +
                                "property float nx\nproperty float ny\nproperty float nz\n" +
                                "element face 6\nproperty list uchar int vertex_indices\n";
-  const ScalarMesh good = read(header("ascii", elements) + vertex_lines(" 0 0 1") + face_lines());
+  const MeshFile good = read(header("ascii", elements) + vertex_lines(" 0 0 1") + face_lines());
   check_cube(good);
   CHECK(good.mesh.normals.size() == 8);
   CHECK(good.warnings.empty());
@@ -205,7 +205,7 @@ TEST_CASE("ply normals that are no numbers are left out with a warning") {
     CAPTURE(normal);
     std::string vertices = vertex_lines(" 0 0 1");
     vertices.replace(vertices.rfind(" 0 0 1"), 6, normal);
-    const ScalarMesh mesh = read(header("ascii", elements) + vertices + face_lines());
+    const MeshFile mesh = read(header("ascii", elements) + vertices + face_lines());
     check_cube(mesh);
     CHECK(mesh.mesh.normals.empty());
     REQUIRE(mesh.warnings.size() == 1);
@@ -220,7 +220,7 @@ TEST_CASE("ply normals that are no numbers are left out with a warning") {
   for (const double number : {0.0, std::nan(""), 1.0}) {
     bytes += bytes_of(number, true);
   }
-  const ScalarMesh mesh = read(bytes);
+  const MeshFile mesh = read(bytes);
   CHECK(mesh.mesh.positions[0] == difmesh::Vec3{1, 2, 3});
   CHECK(mesh.mesh.normals.empty());
   CHECK(mesh.warnings.size() == 1);

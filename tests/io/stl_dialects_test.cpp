@@ -15,7 +15,7 @@ namespace {
 
 using difmesh::ErrorCode;
 using difmesh::Measure;
-using difmesh::ScalarMesh;
+using difmesh::MeshFile;
 using test::check_cube;
 using test::check_error;
 using test::TempFolder;
@@ -90,21 +90,21 @@ std::string binary(const std::string& header, std::uint32_t count) {
   return bytes;
 }
 
-ScalarMesh read(const std::string& bytes) {
+MeshFile read(const std::string& bytes) {
   const TempFolder folder;
-  return difmesh::read_scalar_mesh(folder.file("m.stl", bytes));
+  return difmesh::read_mesh_file(folder.file("m.stl", bytes));
 }
 
 void check_silent_cube(const std::string& bytes) {
   CAPTURE(bytes);
-  const ScalarMesh mesh = read(bytes);
+  const MeshFile mesh = read(bytes);
   check_cube(mesh);
   CHECK(mesh.warnings.empty());
 }
 
 void check_warned_cube(const std::string& bytes, const std::string& word) {
   CAPTURE(bytes);
-  const ScalarMesh mesh = read(bytes);
+  const MeshFile mesh = read(bytes);
   check_cube(mesh);
   REQUIRE(mesh.warnings.size() == 1);
   CAPTURE(mesh.warnings[0]);
@@ -189,7 +189,7 @@ TEST_CASE("no triangle of an stl text is lost in silence") {
   for (std::size_t length = 0; length + 12 < whole.size(); ++length) {
     CAPTURE(length);
     try {
-      const ScalarMesh part = read(whole.substr(0, length));
+      const MeshFile part = read(whole.substr(0, length));
       CHECK(part.warnings.size() == 1);
     } catch (const difmesh::Error& error) {
       CHECK(error.code() == ErrorCode::file_format);

@@ -15,6 +15,11 @@
 
 namespace test {
 
+inline difmesh::Mesh with_scalars(difmesh::Mesh mesh, std::vector<difmesh::VertexScalar> scalars) {
+  mesh.scalars = std::move(scalars);
+  return mesh;
+}
+
 using Json = nlohmann::json;
 
 /// The surface of a ball that fills four tenths of a cube of cells, with normals and edge ids.

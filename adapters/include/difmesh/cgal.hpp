@@ -58,7 +58,7 @@ ImportReport append_to_cgal(PolygonMesh& mesh, const MeshView& view,
                   std::uint64_t{mesh.number_of_faces()} + mesh.number_of_removed_faces()});
     limits.items = std::numeric_limits<std::uint32_t>::max() - used;
   }
-  detail::ImportPlan plan = detail::plan_import(view, options, limits);
+  detail::ImportPlan plan = detail::plan_import(view, limits);
   using Items = std::conditional_t<kIsSurfaceMesh, detail::IndexedItems<PolygonMesh>,
                                    detail::GraphItems<PolygonMesh>>;
   const Items items(mesh, plan.corners, plan.halfedges);
@@ -89,6 +89,7 @@ template <class PolygonMesh>
 /// dif_mesh_from_arrays(). Coordinates are the nearest doubles.
 /// - normals and edge_ids: of a Surface_mesh, the property maps named above where they are there;
 ///   edge ids only if they ascend over the vertices, as Mesh::edge_ids must.
+/// - scalars: of a Surface_mesh, all property maps of double called "v:" + name.
 /// \throw Error too_large for more than 2^32 - 1 vertices
 /// Cost: linear. Thread safety: only reads the mesh.
 template <class PolygonMesh>

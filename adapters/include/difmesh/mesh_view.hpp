@@ -3,6 +3,7 @@
 /// What the adapters to mesh libraries read from and what they tell. Types only: nothing of difmesh
 /// has to be linked, but libdifmesh where a `const dif_mesh*` is handed over.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -21,6 +22,12 @@
 
 namespace difmesh {
 
+/// A view of a VertexScalar.
+struct ScalarView {
+  std::string name;                     ///< becomes the property "v:" + name
+  std::span<const double> values = {};  ///< one per vertex
+};
+
 /// A triangle mesh in memory that others own: a Mesh, a C `dif_mesh`, or arrays of any origin, which
 /// need be neither manifold nor well oriented. Valid as long as these are neither changed nor freed.
 struct MeshView {
@@ -30,6 +37,7 @@ struct MeshView {
   std::int64_t triangles = 0;               ///< how many
   const double* normals = nullptr;          ///< null, or x, y, z per vertex
   const std::uint64_t* edge_ids = nullptr;  ///< null, or one per vertex; see Mesh::edge_ids
+  std::vector<ScalarView> scalars = {};     ///< of different names
 
   MeshView() = default;
 
@@ -49,6 +57,9 @@ struct MeshView {
     indices = triangles == 0 ? nullptr : mesh.triangles.front().data();
     normals = check(mesh.normals.size(), "normals") ? mesh.normals.front().data() : nullptr;
     edge_ids = check(mesh.edge_ids.size(), "edge_ids") ? mesh.edge_ids.data() : nullptr;
+    for (const VertexScalar& scalar : mesh.scalars) {
+      scalars.push_back({scalar.name, scalar.values});
+    }
   }
 
 #ifdef DIFMESH_HAS_C_MESH
@@ -62,21 +73,24 @@ struct MeshView {
         dif_mesh_edge_ids(mesh, &edge_ids, &with_edge_ids) != DIF_OK) {
       throw Error(ErrorCode::invalid_argument, "the dif_mesh cannot be read");
     }
+    const char* name = nullptr;
+    for (std::int64_t n = 0; dif_mesh_scalars_name(mesh, n, &name) == DIF_OK && name != nullptr;
+         ++n) {
+      const double* values = nullptr;
+      std::int64_t count = 0;
+      if (dif_mesh_scalars(mesh, name, &values, &count) == DIF_OK) {
+        scalars.push_back({name, {values, static_cast<std::size_t>(count)}});
+      }
+    }
   }
 #endif
-};
-
-/// A scalar of the caller's at the vertices, such as a curvature.
-struct VertexScalar {
-  std::string name;                     ///< becomes the property "v:" + name
-  std::span<const double> values = {};  ///< one per vertex
 };
 
 /// What comes along with the positions and triangles.
 struct ImportOptions {
   bool normals = true;   ///< normals, where the mesh has them
   bool edge_ids = true;  ///< names of dual edges, where the mesh has them
-  std::vector<VertexScalar> scalars = {};
+  bool scalars = true;   ///< scalars, where the mesh has them
 };
 
 /// Why a face was refused. A mesh of reconstruct() loses none.
@@ -112,10 +126,14 @@ struct ImportReport {
 [[nodiscard]] inline dif_mesh* to_dif_mesh(const Mesh& mesh) {
   const MeshView view(mesh);
   dif_mesh* result = nullptr;
+  const auto set_scalar = [&result](const ScalarView& scalar) {
+    return dif_mesh_set_scalars(result, scalar.name.c_str(), scalar.values.data()) == DIF_OK;
+  };
   if (dif_mesh_from_arrays(view.positions, view.vertices, view.indices, view.triangles, &result) !=
           DIF_OK ||
       dif_mesh_set_normals(result, view.normals) != DIF_OK ||
-      dif_mesh_set_edge_ids(result, view.edge_ids) != DIF_OK) {
+      dif_mesh_set_edge_ids(result, view.edge_ids) != DIF_OK ||
+      !std::all_of(view.scalars.begin(), view.scalars.end(), set_scalar)) {
     const std::string message = dif_last_message();
     dif_mesh_free(result);
     throw Error(ErrorCode::invalid_argument, message);

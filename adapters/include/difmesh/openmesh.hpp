@@ -39,7 +39,7 @@ ImportReport append_to_openmesh(OMesh& mesh, const MeshView& view,
   const std::size_t used = std::max({mesh.n_vertices(), mesh.n_halfedges(), mesh.n_faces()});
   const detail::Limits limits{
       kMost - used, static_cast<double>(std::numeric_limits<typename OMesh::Scalar>::max())};
-  detail::ImportPlan plan = detail::plan_import(view, options, limits);
+  detail::ImportPlan plan = detail::plan_import(view, limits);
   const detail::OpenMeshWriter<OMesh> writer(mesh, view, plan);
   writer.write_points();
   writer.write_halfedges();
@@ -64,6 +64,7 @@ template <class OMesh>
 /// - normals: the standard property, where the mesh has it.
 /// - edge_ids: the property "v:edge_id", where it is there and ascends over the vertices, as
 ///   Mesh::edge_ids must.
+/// - scalars: all properties of double called "v:" + name.
 /// \throw Error too_large for more than 2^32 - 1 vertices
 /// Cost: linear. Thread safety: only reads the mesh.
 template <class OMesh>

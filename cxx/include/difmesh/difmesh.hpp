@@ -12,6 +12,7 @@
 #include "difmesh/grid.hpp"
 #include "difmesh/measure.hpp"
 #include "difmesh/mesh.hpp"
+#include "difmesh/mesh_portion.hpp"
 #include "difmesh/mollify.hpp"
 #include "difmesh/normals.hpp"
 #include "difmesh/options.hpp"

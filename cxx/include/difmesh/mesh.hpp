@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <new>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -63,6 +64,12 @@ using Array = std::vector<T, UninitialisedAllocator<T>>;
 
 using Triangle = std::array<std::uint32_t, 3>;
 
+/// A named number per vertex: curvature, errors and the like.
+struct VertexScalar {
+  std::string name;      ///< letters, digits and underscores, for instance "mean_curvature"
+  Array<double> values;  ///< one per vertex
+};
+
 /// A triangle mesh. Triangles are counter-clockwise seen from the empty side (γ < 1/2). What
 /// reconstruct() returns is edge-manifold and vertex-manifold; boundaries lie on domain sides only.
 struct Mesh {
@@ -73,6 +80,7 @@ struct Mesh {
   /// id = 3 (((k+1)(ny+2) + (j+1))(nx+2) + (i+1)) + axis, where (i,j,k) is the edge's lower dual
   /// node in the indices of the whole grid (-1 and n are the nodes beyond or on the domain faces).
   Array<std::uint64_t> edge_ids;
+  std::vector<VertexScalar> scalars = {};  ///< of different names
 };
 
 }  // namespace difmesh

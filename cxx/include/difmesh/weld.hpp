@@ -12,7 +12,7 @@ namespace difmesh {
 /// Joins meshes from reconstruct_block() over disjoint blocks of one grid. Vertices are identified
 /// by edge id, never by distance. Vertices come in the order of their ids and triangles in the
 /// order of their dual cells, so blocks that cover the grid give the mesh of the whole field, bit
-/// for bit.
+/// for bit. Scalars are left out.
 /// \param grid the whole grid
 /// \throw Error invalid_argument if a mesh has vertices without edge_ids, an id is outside the grid,
 ///   only some meshes have normals, or blocks are not disjoint, for instance one given twice: two

@@ -3,7 +3,6 @@
 #include <CGAL/Surface_mesh.h>
 
 #include <difmesh/cgal.hpp>
-#include <vector>
 
 #include "tetrahedron.hpp"
 
@@ -12,10 +11,11 @@ using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Polyhedron = CGAL::Polyhedron_3<Kernel>;
 
 int main() {
-  const std::vector<double> curvature{1.0, 2.0, 3.0, 4.0};
+  difmesh::Mesh curved = tetrahedron();
+  curved.scalars = {{"curvature", {1.0, 2.0, 3.0, 4.0}}};
   auto [mesh, report] = difmesh::to_cgal<SurfaceMesh>(tetrahedron());
   const bool round_trip = same(difmesh::mesh_from_cgal(mesh), tetrahedron());
-  report = difmesh::append_to_cgal(mesh, tetrahedron(), {.scalars = {{"curvature", curvature}}});
+  report = difmesh::append_to_cgal(mesh, curved);
   const auto polyhedron = difmesh::to_cgal<Polyhedron>(tetrahedron()).mesh;
   return round_trip && report.refused.empty() && mesh.number_of_faces() == 8 &&
                  difmesh::mesh_from_cgal(polyhedron).triangles.size() == 4

@@ -1,7 +1,6 @@
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <difmesh/openmesh.hpp>
-#include <vector>
 
 #include "tetrahedron.hpp"
 
@@ -13,11 +12,11 @@ using Triangles = OpenMesh::TriMesh_ArrayKernelT<DoubleTraits>;
 using Polygons = OpenMesh::PolyMesh_ArrayKernelT<>;
 
 int main() {
-  const std::vector<double> curvature{1.0, 2.0, 3.0, 4.0};
+  difmesh::Mesh curved = tetrahedron();
+  curved.scalars = {{"curvature", {1.0, 2.0, 3.0, 4.0}}};
   auto [mesh, report] = difmesh::to_openmesh<Triangles>(tetrahedron());
   const bool round_trip = same(difmesh::mesh_from_openmesh(mesh), tetrahedron());
-  report =
-      difmesh::append_to_openmesh(mesh, tetrahedron(), {.scalars = {{"curvature", curvature}}});
+  report = difmesh::append_to_openmesh(mesh, curved);
   const auto polygons = difmesh::to_openmesh<Polygons>(tetrahedron()).mesh;
   return round_trip && report.refused.empty() && mesh.n_faces() == 8 && polygons.n_edges() == 6 ? 0
                                                                                                 : 1;

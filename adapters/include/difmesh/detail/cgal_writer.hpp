@@ -194,12 +194,13 @@ void write_properties(SurfaceMesh& mesh, const Items& items, const MeshView& vie
   if (options.edge_ids && view.edge_ids) {
     write("v:edge_id", [&](std::size_t v) { return view.edge_ids[v]; });
   }
-  for (const VertexScalar& scalar : options.scalars) {
+  for (std::size_t n = 0; options.scalars && n < view.scalars.size(); ++n) {
+    const ScalarView& scalar = view.scalars[n];
     write("v:" + scalar.name, [&](std::size_t v) { return scalar.values[v]; });
   }
 }
 
-/// Normals and edge ids of a Surface_mesh, where it has them.
+/// Normals, edge ids and scalars of a Surface_mesh, where it has them.
 template <class SurfaceMesh>
 void read_properties(const SurfaceMesh& mesh, MeshBuilder& builder) {
   using Index = typename SurfaceMesh::Vertex_index;
@@ -212,6 +213,15 @@ void read_properties(const SurfaceMesh& mesh, MeshBuilder& builder) {
     }
     if (with_ids) {
       builder.add_edge_id(ids[v]);
+    }
+  }
+  for (const std::string& name : mesh.template properties<Index>()) {
+    const auto [values, is_scalar] = mesh.template property_map<Index, double>(name);
+    if (is_scalar && name.starts_with("v:")) {
+      Array<double>& scalar = builder.add_scalar(name.substr(2));
+      for (const Index v : vertices(mesh)) {
+        scalar.push_back(values[v]);
+      }
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <utility>
 
 #include "difmesh/error.hpp"
@@ -30,6 +31,10 @@ class MeshBuilder {
     mesh_.normals.push_back(vector(n));
   }
   void add_edge_id(std::uint64_t id) { mesh_.edge_ids.push_back(id); }
+  /// \return where its values go, valid until the next call
+  Array<double>& add_scalar(const std::string& name) {
+    return mesh_.scalars.emplace_back(VertexScalar{name, {}}).values;
+  }
 
   void start_face() { corners_ = 0; }
   /// The third corner of a face and those after make a triangle with the first and the last one.

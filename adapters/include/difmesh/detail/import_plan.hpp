@@ -28,13 +28,13 @@ struct ImportPlan {
   ImportReport report;
 };
 
-inline void check_arrays(const MeshView& view, const ImportOptions& options, double largest) {
+inline void check_arrays(const MeshView& view, double largest) {
   const auto fail = [](ErrorCode code, const std::string& message) { throw Error(code, message); };
   if (view.vertices < 0 || view.triangles < 0 || (view.vertices > 0 && !view.positions) ||
       (view.triangles > 0 && !view.indices)) {
     fail(ErrorCode::invalid_argument, "a mesh view has negative sizes or lacks an array");
   }
-  for (const VertexScalar& scalar : options.scalars) {
+  for (const ScalarView& scalar : view.scalars) {
     if (scalar.values.size() != static_cast<std::size_t>(view.vertices)) {
       fail(ErrorCode::invalid_argument, "scalar '" + scalar.name + "' holds " +
                                             std::to_string(scalar.values.size()) + " values for " +
@@ -77,9 +77,8 @@ inline void drop_refused(ImportPlan& plan) {
 }
 
 /// \throw Error invalid_argument, invalid_value, too_large
-[[nodiscard]] inline ImportPlan plan_import(const MeshView& view, const ImportOptions& options,
-                                            const Limits& limits) {
-  check_arrays(view, options, limits.coordinate);
+[[nodiscard]] inline ImportPlan plan_import(const MeshView& view, const Limits& limits) {
+  check_arrays(view, limits.coordinate);
   const auto too_large = [&limits](std::uint64_t count, const char* what) {
     if (count > limits.items) {
       throw Error(ErrorCode::too_large, "the mesh library cannot hold " + std::to_string(count) +

@@ -76,8 +76,8 @@ class OpenMeshWriter {
     if (options.edge_ids && view_.edge_ids) {
       write_property("v:edge_id", view_.edge_ids);
     }
-    for (const VertexScalar& scalar : options.scalars) {
-      write_property("v:" + scalar.name, scalar.values.data());
+    for (std::size_t n = 0; options.scalars && n < view_.scalars.size(); ++n) {
+      write_property("v:" + view_.scalars[n].name, view_.scalars[n].values.data());
     }
   }
 
@@ -119,6 +119,23 @@ class OpenMeshWriter {
 };
 
 template <class OMesh>
+void read_scalars(const OMesh& mesh, MeshBuilder& builder) {
+  for (auto property = mesh.vprops_begin(); property != mesh.vprops_end(); ++property) {
+    OpenMesh::VPropHandleT<double> handle;
+    if (*property == nullptr || !(*property)->name().starts_with("v:") ||
+        !mesh.get_property_handle(handle, (*property)->name())) {
+      continue;
+    }
+    Array<double>& scalar = builder.add_scalar((*property)->name().substr(2));
+    for (const auto vertex : mesh.all_vertices()) {
+      if (!mesh.has_vertex_status() || !mesh.status(vertex).deleted()) {
+        scalar.push_back(mesh.property(handle, vertex));
+      }
+    }
+  }
+}
+
+template <class OMesh>
 [[nodiscard]] Mesh read_openmesh(const OMesh& mesh) {
   MeshBuilder builder;
   std::vector<std::uint32_t> number(mesh.n_vertices(), kNone);
@@ -136,6 +153,7 @@ template <class OMesh>
       builder.add_edge_id(mesh.property(ids, vertex));
     }
   }
+  read_scalars(mesh, builder);
   for (const auto face : mesh.all_faces()) {
     if (mesh.has_face_status() && mesh.status(face).deleted()) {
       continue;
