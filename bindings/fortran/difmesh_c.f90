@@ -442,20 +442,13 @@ module difmesh_c
       integer(c_int64_t), value :: struct_size
     end function
 
-    integer(c_int32_t) function dif_mesh_write(mesh, path, options) bind(c)
-      import :: c_char, c_int32_t, c_ptr, dif_mesh_write_options
-      type(c_ptr), value :: mesh
-      character(kind=c_char), intent(in) :: path(*)
-      type(dif_mesh_write_options), intent(in), optional :: options
-    end function
-
     integer(c_int32_t) function dif_mesh_write_report_init(report, struct_size) bind(c)
       import :: c_int32_t, c_int64_t, dif_mesh_write_report
       type(dif_mesh_write_report), intent(inout) :: report
       integer(c_int64_t), value :: struct_size
     end function
 
-    integer(c_int32_t) function dif_mesh_write_reported(mesh, path, options, report) bind(c)
+    integer(c_int32_t) function dif_mesh_write(mesh, path, options, report) bind(c)
       import :: c_char, c_int32_t, c_ptr, dif_mesh_write_options, dif_mesh_write_report
       type(c_ptr), value :: mesh
       character(kind=c_char), intent(in) :: path(*)

@@ -452,31 +452,35 @@ contains
       status, message)
   end subroutine
 
-  ! To .ply (double precision), .obj, .off, .stl, .glb, .gltf or .drc. `colour_by`, the name of
-  ! scalars, and `name` are for glTF, and come before those of the options. `report` tells what was
-  ! written; if that fails it is as dif_init leaves it.
-  subroutine write_file(mesh, path, status, options, message, colour_by, name, report)
+  ! To .ply (double precision), .obj, .off, .stl, .glb, .gltf or .drc, by the extension or by `format`,
+  ! such as 'ply'. `colour_by`, the name of scalars, and `name` are for glTF; all three come before
+  ! those of the options. `report` tells what was written; if that fails it is as dif_init leaves it.
+  subroutine write_file(mesh, path, status, options, message, colour_by, name, report, format)
     class(dif_mesh), intent(in) :: mesh
     character(*), intent(in) :: path
     integer(c_int32_t), intent(out) :: status
     type(dif_mesh_write_options), intent(in), optional :: options
     character(*), intent(inout), optional :: message
-    character(*), intent(in), optional :: colour_by, name
+    character(*), intent(in), optional :: colour_by, name, format
     type(dif_mesh_write_report), intent(out), optional :: report
     type(dif_mesh_write_options) :: given
-    character(kind=c_char), allocatable, target :: scalars(:), title(:)
+    character(kind=c_char), allocatable, target :: scalars(:), title(:), extension(:)
     call dif_init(given)
     if (present(options)) given = options
     if (present(colour_by)) then
       scalars = to_c(colour_by)
       given%colour_by = c_loc(scalars)
     end if
+    if (present(format)) then
+      extension = to_c(format)
+      given%format = c_loc(extension)
+    end if
     if (present(name)) then
       title = to_c(name)
       given%name = c_loc(title)
     end if
     if (present(report)) call dif_init(report)
-    call finish(dif_mesh_write_reported(mesh%handle, to_c(path), given, report), status, message)
+    call finish(dif_mesh_write(mesh%handle, to_c(path), given, report), status, message)
   end subroutine
 
   type(c_ptr) function c_handle(mesh)

@@ -102,16 +102,6 @@ module difmesh_types
     dif_boundary_along = 2
 
   integer(c_int32_t), parameter, public :: &
-    dif_mesh_format_by_extension = 0, &
-    dif_mesh_format_ply = 1, &
-    dif_mesh_format_obj = 2, &
-    dif_mesh_format_off = 3, &
-    dif_mesh_format_stl = 4, &
-    dif_mesh_format_glb = 5, &
-    dif_mesh_format_gltf = 6, &
-    dif_mesh_format_drc = 7
-
-  integer(c_int32_t), parameter, public :: &
     dif_draco_default = 0, &
     dif_draco_edgebreaker = 1, &
     dif_draco_sequential = 2
@@ -374,10 +364,9 @@ module difmesh_types
 
   type, bind(c), public :: dif_mesh_write_options
     integer(c_int64_t) :: struct_size = 0
-    integer(c_int32_t) :: format = 0
+    type(c_ptr) :: format = c_null_ptr
     integer(c_int32_t) :: normals = 0
     integer(c_int32_t) :: edge_ids = 0
-    integer(c_int32_t) :: reserved = 0
     integer(c_int32_t) :: scalars = 0
     integer(c_int32_t) :: draco = 0
     integer(c_int32_t) :: draco_method = 0

@@ -14,13 +14,8 @@ dif_status unsupported() {
 }  // namespace
 
 dif_status dif_mesh_write(const dif_mesh* /*mesh*/, const char* /*path*/,
-                          const dif_mesh_write_options* /*options*/) {
-  return unsupported();
-}
-
-dif_status dif_mesh_write_reported(const dif_mesh* /*mesh*/, const char* /*path*/,
-                                   const dif_mesh_write_options* /*options*/,
-                                   dif_mesh_write_report* /*report*/) {
+                          const dif_mesh_write_options* /*options*/,
+                          dif_mesh_write_report* /*report*/) {
   return unsupported();
 }
 

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include "boundary.hpp"
@@ -17,9 +16,6 @@ using difmesh::ColourMap;
 using difmesh::DracoMethod;
 using difmesh::UpAxis;
 
-/// The extensions of DIF_MESH_FORMAT_..., in their order.
-constexpr std::array<std::string_view, 7> kFormats{".ply", ".obj",  ".off", ".stl",
-                                                   ".glb", ".gltf", ".drc"};
 constexpr std::array kDracoMethods{DracoMethod::edgebreaker, DracoMethod::sequential};
 constexpr std::array kColourMaps{ColourMap::viridis, ColourMap::cool_warm};
 constexpr std::array kUpAxes{UpAxis::y, UpAxis::z};
@@ -58,11 +54,8 @@ difmesh::WriteMeshOptions to_options(const char* path, const dif_mesh_write_opti
   dif_mesh_write_options defaults{};
   dif_mesh_write_options_init(&defaults, sizeof defaults);
   const dif_mesh_write_options given = capi::read_struct(options, defaults, "options");
-  capi::require_zero(given.reserved, "options");
   difmesh::WriteMeshOptions result;
-  if (given.format != DIF_MESH_FORMAT_BY_EXTENSION) {
-    result.format = capi::to_choice(given.format, kFormats.front(), kFormats, "format");
-  }
+  result.format = given.format != nullptr ? given.format : "";
   result.normals = capi::to_bool(given.normals, "normals");
   result.edge_ids = capi::to_bool(given.edge_ids, "edge_ids");
   result.scalars = capi::to_bool(given.scalars, "scalars");
@@ -100,13 +93,7 @@ dif_mesh_write_report to_report(const difmesh::MeshFileReport& report) {
 }  // namespace
 
 dif_status dif_mesh_write(const dif_mesh* mesh, const char* path,
-                          const dif_mesh_write_options* options) {
-  return dif_mesh_write_reported(mesh, path, options, nullptr);
-}
-
-dif_status dif_mesh_write_reported(const dif_mesh* mesh, const char* path,
-                                   const dif_mesh_write_options* options,
-                                   dif_mesh_write_report* report) {
+                          const dif_mesh_write_options* options, dif_mesh_write_report* report) {
   return capi::guarded([&] {
     if (report != nullptr) {
       capi::check_output(report, "report");  // before there is a file

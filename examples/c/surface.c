@@ -39,7 +39,7 @@ static dif_status run(const char* from, const char* to) {
   if (status == DIF_OK) {
     printf("%lld vertices, volume %.10g, in the fractions %.10g\n", (long long)vertices,
            report.enclosed_volume, report.fraction_volume);
-    status = dif_mesh_write(mesh, to, NULL);
+    status = dif_mesh_write(mesh, to, NULL, NULL);
   }
   dif_mesh_free(mesh);
   dif_field_file_free(file);

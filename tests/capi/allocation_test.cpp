@@ -228,8 +228,9 @@ TEST_CASE("a failed allocation anywhere is a status and leaks nothing") {
     std::filesystem::create_directory(folder);
     for (const char* extension : {".ply", ".obj", ".off", ".stl"}) {
       const std::string path = folder / (std::string("sphere") + extension);
-      fail_each_allocation("dif_mesh_write",
-                           [&] { return dif_mesh_write(f.sphere.get(), path.c_str(), nullptr); });
+      fail_each_allocation("dif_mesh_write", [&] {
+        return dif_mesh_write(f.sphere.get(), path.c_str(), nullptr, nullptr);
+      });
       fail_each_allocation("dif_mesh_read", [&] {
         dif_mesh* mesh = nullptr;
         const dif_status status = dif_mesh_read(path.c_str(), &mesh);

@@ -123,7 +123,7 @@ TEST_CASE("buffers outside the folder of a glTF file are read where that is allo
   const TempFolder folder;
   std::filesystem::create_directory(folder / "inner");
   const auto mesh = c::c_reconstruct(c::c_field(c::blob({9, 8, 7})));
-  REQUIRE(dif_mesh_write(mesh.get(), (folder / "m.glb").c_str(), nullptr) == DIF_OK);
+  REQUIRE(dif_mesh_write(mesh.get(), (folder / "m.glb").c_str(), nullptr, nullptr) == DIF_OK);
   // A header of 20 bytes, whose last words are length and kind of the JSON; then that of the data.
   const std::string glb = test::read_bytes(folder / "m.glb");
   std::uint32_t length = 0;

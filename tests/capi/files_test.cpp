@@ -42,7 +42,7 @@ TEST_CASE("meshes and fields come back from files") {
   options.vertex_normals = 1;
   options.edge_ids = 1;
   const auto mesh = c::c_reconstruct(field, &options);
-  REQUIRE(dif_mesh_write(mesh.get(), (folder / "blob.ply").c_str(), nullptr) == DIF_OK);
+  REQUIRE(dif_mesh_write(mesh.get(), (folder / "blob.ply").c_str(), nullptr, nullptr) == DIF_OK);
   dif_mesh* read = nullptr;
   REQUIRE(dif_mesh_read((folder / "blob.ply").c_str(), &read) == DIF_OK);
   const c::MeshHandle again(read);
@@ -50,8 +50,9 @@ TEST_CASE("meshes and fields come back from files") {
   dif_mesh_write_options plain = c::prepared(dif_mesh_write_options_init);
   plain.normals = 0;
   plain.edge_ids = 0;
-  plain.format = DIF_MESH_FORMAT_PLY;
-  REQUIRE(dif_mesh_write(mesh.get(), (folder / "blob.anything").c_str(), &plain) == DIF_OK);
+  plain.format = "ply";
+  REQUIRE(dif_mesh_write(mesh.get(), (folder / "blob.anything").c_str(), &plain, nullptr) ==
+          DIF_OK);
   std::filesystem::rename(folder / "blob.anything", folder / "plain.ply");
   REQUIRE(dif_mesh_read((folder / "plain.ply").c_str(), &read) == DIF_OK);
   const c::MeshHandle bare(read);
@@ -94,8 +95,8 @@ TEST_CASE("file errors name the file and leave nothing") {
   const TempFolder folder;
   const auto mesh = c::c_reconstruct(c::c_field(c::blob({6, 6, 6})));
   dif_mesh_write_options ply = c::prepared(dif_mesh_write_options_init);
-  ply.format = DIF_MESH_FORMAT_PLY;
-  CHECK(dif_mesh_write(mesh.get(), "/dev/full", &ply) == DIF_ERROR_FILE_WRITE);
+  ply.format = "ply";
+  CHECK(dif_mesh_write(mesh.get(), "/dev/full", &ply, nullptr) == DIF_ERROR_FILE_WRITE);
   CHECK(std::string(dif_last_message()).find("/dev/full") != std::string::npos);
   dif_mesh* read = nullptr;
   const auto bad = folder.file("bad.off", "OFF\n3 1 0\n0 0 0\n");
@@ -127,7 +128,7 @@ bool is_written(const dif_mesh* mesh, const std::filesystem::path& path,
   const bool draco = drc || (options != nullptr && options->draco == 1);
   const bool lacks_gltf = !drc && dif_has(DIF_PART_GLTF) == 0;
   const bool lacks_draco = draco && dif_has(DIF_PART_DRACO) == 0;
-  const dif_status status = dif_mesh_write(mesh, path.c_str(), options);
+  const dif_status status = dif_mesh_write(mesh, path.c_str(), options, nullptr);
   INFO(std::string(dif_last_message()));
   if (lacks_gltf || lacks_draco) {
     REQUIRE(status == DIF_ERROR_UNSUPPORTED);
@@ -245,13 +246,13 @@ TEST_CASE("scalars go into PLY and glTF and Draco files and come back") {
   if (is_written(mesh.get(), folder / "plain.glb", &options)) {
     CHECK(names_of(read_mesh(folder / "plain.glb")).empty());
   }
-  REQUIRE(dif_mesh_write(mesh.get(), (folder / "blob.ply").c_str(), nullptr) == DIF_OK);
+  REQUIRE(dif_mesh_write(mesh.get(), (folder / "blob.ply").c_str(), nullptr, nullptr) == DIF_OK);
   const auto exact = read_mesh(folder / "blob.ply");
   CHECK(names_of(exact) == std::vector<std::string>{"height"});
   CHECK(scalars_of(exact, "height") == heights);
-  REQUIRE(dif_mesh_write(mesh.get(), (folder / "plain.ply").c_str(), &options) == DIF_OK);
+  REQUIRE(dif_mesh_write(mesh.get(), (folder / "plain.ply").c_str(), &options, nullptr) == DIF_OK);
   CHECK(names_of(read_mesh(folder / "plain.ply")).empty());
-  REQUIRE(dif_mesh_write(mesh.get(), (folder / "blob.off").c_str(), nullptr) == DIF_OK);
+  REQUIRE(dif_mesh_write(mesh.get(), (folder / "blob.off").c_str(), nullptr, nullptr) == DIF_OK);
   CHECK(names_of(read_mesh(folder / "blob.off")).empty());
 }
 
@@ -287,7 +288,7 @@ TEST_CASE("glTF's options are in the file") {
   const TempFolder folder;
   const auto mesh = surface_with_heights();
   dif_mesh_write_options options = c::prepared(dif_mesh_write_options_init);
-  options.format = DIF_MESH_FORMAT_GLTF;
+  options.format = "gltf";
   options.colour_by = "height";
   options.colour_map = DIF_COLOUR_MAP_COOL_WARM;
   options.colour_range[0] = -3.5;
@@ -320,7 +321,7 @@ TEST_CASE("options of older and newer programs write meshes") {
   old.struct_size = 24;
   old.draco = 7;  // beyond its end
   old.position_bits = -5;
-  REQUIRE(dif_mesh_write(mesh.get(), (folder / "blob.ply").c_str(), &old) == DIF_OK);
+  REQUIRE(dif_mesh_write(mesh.get(), (folder / "blob.ply").c_str(), &old, nullptr) == DIF_OK);
   if (is_written(mesh.get(), folder / "old.glb", &old) &&
       is_written(mesh.get(), folder / "new.glb")) {
     CHECK(::test::read_bytes(folder / "old.glb") == ::test::read_bytes(folder / "new.glb"));
@@ -334,7 +335,7 @@ TEST_CASE("what a reader left out is told by the mesh") {
   const TempFolder folder;
   const auto mesh = c::c_reconstruct(c::c_field(c::blob({12, 11, 10})));
   const auto path = folder / "blob.glb";
-  REQUIRE(dif_mesh_write(mesh.get(), path.c_str(), nullptr) == DIF_OK);
+  REQUIRE(dif_mesh_write(mesh.get(), path.c_str(), nullptr, nullptr) == DIF_OK);
   const auto warnings_of = [](const c::MeshHandle& from) {
     std::vector<std::string> warnings;
     const char* text = nullptr;

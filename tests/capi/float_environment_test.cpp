@@ -392,8 +392,9 @@ void files(Results& results, const dif_mesh* mesh) {
   const test::TempFolder folder;
   for (const std::string name : {"m.ply", "m.obj", "m.off", "m.stl", "m.glb", "m.gltf", "m.drc"}) {
     const auto path = folder / name;
-    if (results.call("write " + name,
-                     [&] { return dif_mesh_write(mesh, path.c_str(), nullptr); }) != DIF_OK) {
+    if (results.call("write " + name, [&] {
+          return dif_mesh_write(mesh, path.c_str(), nullptr, nullptr);
+        }) != DIF_OK) {
       continue;
     }
     dif_mesh* read = nullptr;

@@ -606,10 +606,10 @@ std::vector<Case> distance_cases() {
 
 dif_status write_mesh_to(Bench& b, const char* path) {
   if (dif_has(DIF_PART_FILES) == 0) {
-    CHECK(dif_mesh_write(b.mesh.get(), path, &b.write_options) == DIF_ERROR_UNSUPPORTED);
+    CHECK(dif_mesh_write(b.mesh.get(), path, &b.write_options, nullptr) == DIF_ERROR_UNSUPPORTED);
     return kArgument;
   }
-  const dif_status status = dif_mesh_write(b.mesh.get(), path, &b.write_options);
+  const dif_status status = dif_mesh_write(b.mesh.get(), path, &b.write_options, nullptr);
   const bool has_all = dif_has(DIF_PART_GLTF) == 1 && dif_has(DIF_PART_DRACO) == 1;
   return status == DIF_ERROR_UNSUPPORTED && !has_all ? kArgument : status;
 }
@@ -633,14 +633,13 @@ dif_status write_ply(Bench& b) {
 }
 
 dif_status write_reported(Bench& b) {
-  return dif_mesh_write_reported(b.mesh.get(), "/nowhere/x.ply", nullptr, &b.write_report);
+  return dif_mesh_write(b.mesh.get(), "/nowhere/x.ply", nullptr, &b.write_report);
 }
 
 std::vector<Case> write_cases() {
   const char* const f = "dif_mesh_write";
   return {
-    CHANGED(f, write_options.reserved = 1, kArgument, write_ply),
-        CHANGED(f, write_options.format = 8, kArgument, write_ply),
+    CHANGED(f, write_options.format = "doc", kArgument, write_ply),
         CHANGED(f, write_options.normals = 2, kArgument, write_ply),
         CHANGED(f, write_options.edge_ids = -1, kArgument, write_ply),
         CHANGED(f, write_options.scalars = 2, kArgument, write_ply),
@@ -648,6 +647,9 @@ std::vector<Case> write_cases() {
         CHANGED(f, write_options.colour_by = "height", kArgument, write_ply),
         CHANGED(f, write_options.up = DIF_UP_Z, kArgument, write_ply),
         CHANGED(f, write_options.metres_per_unit = 0.001, kArgument, write_ply),
+        CHANGED(f, write_options.most_vertices = 65535, kArgument, write_ply),
+        CHANGED(f, write_options.name = "drop", kArgument, write_ply),
+        CHANGED(f, write_options.has_local_origin = 1, kArgument, write_ply),
         CHANGED(f, write_options.draco = 2, kArgument, write_glb),
         CHANGED(f, write_options.colour_by = "height", kArgument, write_glb),
         CHANGED(f, write_options.up = 3, kArgument, write_glb),
@@ -795,26 +797,24 @@ std::vector<Case> file_cases() {
       CALL("dif_mesh_write_report_init", dif_mesh_write_report_init(nullptr, 80), kArgument),
       CALL("dif_raw_layout_init", dif_raw_layout_init(nullptr, 48), kArgument),
       CALL("dif_field_write_options_init", dif_field_write_options_init(nullptr, 24), kArgument),
-      CALL("dif_mesh_write", dif_mesh_write(nullptr, "x.ply", nullptr), or_unsupported(kArgument)),
-      CALL("dif_mesh_write", dif_mesh_write(b.mesh.get(), nullptr, nullptr),
+      CALL("dif_mesh_write", dif_mesh_write(nullptr, "x.ply", nullptr, nullptr),
            or_unsupported(kArgument)),
-      CALL("dif_mesh_write", dif_mesh_write(b.mesh.get(), "x.doc", nullptr),
+      CALL("dif_mesh_write", dif_mesh_write(b.mesh.get(), nullptr, nullptr, nullptr),
            or_unsupported(kArgument)),
-      CALL("dif_mesh_write", dif_mesh_write(b.mesh.get(), "/nowhere/x.ply", nullptr),
+      CALL("dif_mesh_write", dif_mesh_write(b.mesh.get(), "x.doc", nullptr, nullptr),
+           or_unsupported(kArgument)),
+      CALL("dif_mesh_write", dif_mesh_write(b.mesh.get(), "/nowhere/x.ply", nullptr, nullptr),
            or_unsupported(DIF_ERROR_FILE_WRITE)),
-      CALL("dif_mesh_write_reported",
-           dif_mesh_write_reported(nullptr, "x.ply", nullptr, &b.write_report),
+      CALL("dif_mesh_write", dif_mesh_write(nullptr, "x.ply", nullptr, &b.write_report),
            or_unsupported(kArgument)),
-      CALL("dif_mesh_write_reported",
-           dif_mesh_write_reported(b.mesh.get(), nullptr, nullptr, &b.write_report),
+      CALL("dif_mesh_write", dif_mesh_write(b.mesh.get(), nullptr, nullptr, &b.write_report),
            or_unsupported(kArgument)),
-      CALL("dif_mesh_write_reported",
-           dif_mesh_write_reported(b.mesh.get(), "/nowhere/x.ply", nullptr, nullptr),
+      CALL("dif_mesh_write", dif_mesh_write(b.mesh.get(), "/nowhere/x.ply", nullptr, nullptr),
            or_unsupported(DIF_ERROR_FILE_WRITE)),
-      CHANGED("dif_mesh_write_reported", write_report.struct_size = 4, or_unsupported(kStruct),
+      CHANGED("dif_mesh_write", write_report.struct_size = 4, or_unsupported(kStruct),
               write_reported),
-      CHANGED("dif_mesh_write_reported", write_report.struct_size = 1U << 20U,
-              or_unsupported(kStruct), write_reported),
+      CHANGED("dif_mesh_write", write_report.struct_size = 1U << 20U, or_unsupported(kStruct),
+              write_reported),
       CALL("dif_mesh_read", dif_mesh_read(nullptr, &b.result), or_unsupported(kArgument)),
       CALL("dif_mesh_read", dif_mesh_read("x.ply", nullptr), or_unsupported(kArgument)),
       CALL("dif_mesh_read", dif_mesh_read("/nowhere/x.ply", &b.result),
@@ -850,8 +850,8 @@ std::vector<Case> file_cases() {
                      layout.big_endian = 2;
                      CHECK(dif_field_read("/dev/null", &layout, &file) == kArgument);
                      dif_mesh_write_options mesh = test::prepared(dif_mesh_write_options_init);
-                     mesh.format = 99;
-                     CHECK(dif_mesh_write(b.mesh.get(), "x.ply", &mesh) == kArgument);
+                     mesh.format = "xyz";
+                     CHECK(dif_mesh_write(b.mesh.get(), "x.ply", &mesh, nullptr) == kArgument);
                      dif_field_write_options field = test::prepared(dif_field_write_options_init);
                      field.format = -1;
                      CHECK(dif_field_write(&b.field, "x.npy", &field) == kArgument);

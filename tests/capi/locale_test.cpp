@@ -103,7 +103,7 @@ std::string words_and_files() {
     if (name == "m.gltf" && dif_has(DIF_PART_GLTF) == 0) {
       continue;
     }
-    REQUIRE(dif_mesh_write(triangle.get(), (folder / name).c_str(), nullptr) == DIF_OK);
+    REQUIRE(dif_mesh_write(triangle.get(), (folder / name).c_str(), nullptr, nullptr) == DIF_OK);
     result += ::test::read_bytes(folder / name);
     REQUIRE(dif_mesh_read((folder / name).c_str(), &mesh) == DIF_OK);
     const c::MeshHandle again(mesh);

@@ -34,7 +34,7 @@ difmesh::Mesh read_mesh(const std::filesystem::path& path) {
 dif_mesh_write_report write_reported(const c::MeshHandle& mesh, const std::filesystem::path& path,
                                      const dif_mesh_write_options* options = nullptr) {
   dif_mesh_write_report report = c::prepared(dif_mesh_write_report_init);
-  const dif_status status = dif_mesh_write_reported(mesh.get(), path.c_str(), options, &report);
+  const dif_status status = dif_mesh_write(mesh.get(), path.c_str(), options, &report);
   INFO(std::string(dif_last_message()));
   REQUIRE(status == DIF_OK);
   CHECK(report.struct_size == sizeof report);
@@ -109,7 +109,7 @@ TEST_CASE("a report tells what is in tables of numbers") {
       CHECK(read_mesh(folder / name).positions == before.positions);
     }
     const std::string bytes = ::test::read_bytes(folder / name);
-    REQUIRE(dif_mesh_write(mesh.get(), (folder / name).c_str(), nullptr) == DIF_OK);
+    REQUIRE(dif_mesh_write(mesh.get(), (folder / name).c_str(), nullptr, nullptr) == DIF_OK);
     CHECK(::test::read_bytes(folder / name) == bytes);
   }
 }
@@ -189,8 +189,7 @@ TEST_CASE("reports of older and newer programs are filled as far as they reach")
     std::vector<std::uint64_t> words(sizeof whole / 8 + 3, 0xA5A5A5A5A5A5A5A5U);
     words[0] = size;
     auto* report = reinterpret_cast<dif_mesh_write_report*>(words.data());
-    REQUIRE(dif_mesh_write_reported(mesh.get(), (folder / "m.ply").c_str(), nullptr, report) ==
-            DIF_OK);
+    REQUIRE(dif_mesh_write(mesh.get(), (folder / "m.ply").c_str(), nullptr, report) == DIF_OK);
     CHECK(words[0] == size);
     const std::size_t known = std::min(size, sizeof whole);
     CHECK(std::memcmp(words.data() + 1, reinterpret_cast<const char*>(&whole) + 8, known - 8) == 0);
@@ -209,18 +208,17 @@ TEST_CASE("what fails leaves the report as it was and no file") {
   const dif_mesh_write_report before = report;
   const auto untouched = [&] { return std::memcmp(&report, &before, sizeof report) == 0; };
   dif_mesh_write_options ply = c::prepared(dif_mesh_write_options_init);
-  ply.format = DIF_MESH_FORMAT_PLY;
-  CHECK(dif_mesh_write_reported(mesh.get(), "/dev/full", &ply, &report) == DIF_ERROR_FILE_WRITE);
+  ply.format = "ply";
+  CHECK(dif_mesh_write(mesh.get(), "/dev/full", &ply, &report) == DIF_ERROR_FILE_WRITE);
   CHECK(untouched());
   ply.draco = 1;
   const std::filesystem::path path = folder / "m.ply";
-  CHECK(dif_mesh_write_reported(mesh.get(), path.c_str(), &ply, &report) ==
-        DIF_ERROR_INVALID_ARGUMENT);
+  CHECK(dif_mesh_write(mesh.get(), path.c_str(), &ply, &report) == DIF_ERROR_INVALID_ARGUMENT);
   CHECK(untouched());
   report.struct_size = 12;
-  CHECK(dif_mesh_write_reported(mesh.get(), path.c_str(), nullptr, &report) == DIF_ERROR_STRUCT);
+  CHECK(dif_mesh_write(mesh.get(), path.c_str(), nullptr, &report) == DIF_ERROR_STRUCT);
   CHECK(report.bytes == 77);
   CHECK(folder.names().empty());
-  CHECK(dif_mesh_write_reported(mesh.get(), path.c_str(), nullptr, nullptr) == DIF_OK);
+  CHECK(dif_mesh_write(mesh.get(), path.c_str(), nullptr, nullptr) == DIF_OK);
   CHECK(folder.names() == std::vector<std::string>{"m.ply"});
 }

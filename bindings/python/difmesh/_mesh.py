@@ -277,8 +277,7 @@ class Mesh:
         was written: the file's size, counts, and by how much coordinates are off.
 
         difmesh/io/mesh_file.hpp says what each keeps; a library without glTF or Draco refuses
-        these. The extension tells, unless `format` does: "ply", "obj", "off", "stl", "glb", "gltf"
-        or "drc". Normals and names of edges are written where the mesh and the format have them,
+        these. The extension tells, unless `format` does: "ply" for instance. Normals and names of edges are written where the mesh and the format have them,
         unless switched off. The file appears when it is complete; on an error nothing is left
         behind.
 
@@ -310,7 +309,7 @@ class Mesh:
         mesh = self._with_scalars(scalars) if scalars else self
         report = DifMeshWriteReport()
         check(
-            library.dif_mesh_write_reported(
+            library.dif_mesh_write(
                 mesh._handle.pointer, path_bytes(path), byref(options), byref(report)
             )
         )

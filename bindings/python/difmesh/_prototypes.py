@@ -138,9 +138,8 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
         [c_void_p, POINTER(s.DifGrid), POINTER(s.DifSmoothingOptions), POINTER(c_void_p)],
     ),
     "dif_mesh_write_options_init": (c_int32, [POINTER(s.DifMeshWriteOptions), c_uint64]),
-    "dif_mesh_write": (c_int32, [c_void_p, c_char_p, POINTER(s.DifMeshWriteOptions)]),
     "dif_mesh_write_report_init": (c_int32, [POINTER(s.DifMeshWriteReport), c_uint64]),
-    "dif_mesh_write_reported": (
+    "dif_mesh_write": (
         c_int32,
         [c_void_p, c_char_p, POINTER(s.DifMeshWriteOptions), POINTER(s.DifMeshWriteReport)],
     ),

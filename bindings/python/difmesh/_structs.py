@@ -286,10 +286,9 @@ class DifSmoothingOptions(Sized):
 class DifMeshWriteOptions(Sized):
     _fields_ = [
         ("struct_size", c_uint64),
-        ("format", c_int32),
+        ("format", c_char_p),
         ("normals", c_int32),
         ("edge_ids", c_int32),
-        ("reserved", c_int32),
         ("scalars", c_int32),
         ("draco", c_int32),
         ("draco_method", c_int32),

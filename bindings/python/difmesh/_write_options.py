@@ -9,12 +9,10 @@ from ._memory import triple
 from ._options import choice, choices, int32
 from ._structs import DifMeshWriteOptions
 
-_FORMATS = choices("MESH_FORMAT_")
 _DRACO_METHODS = choices("DRACO_")
 _COLOUR_MAPS = choices("COLOUR_MAP_")
 _UP_AXES = choices("UP_")
 _CHOICES = {
-    "format": ("format", _FORMATS),
     "draco_method": ("draco_method", _DRACO_METHODS),
     "color_map": ("colour_map", _COLOUR_MAPS),
     "up": ("up", _UP_AXES),
@@ -50,7 +48,7 @@ def to_write_options(
         if name in _CHOICES:
             field, names = _CHOICES[name]
             setattr(options, field, choice(value, names, name))
-        elif name in ("color_by", "name"):
+        elif name in ("color_by", "format", "name"):
             setattr(options, name.replace("color", "colour"), text_bytes(value, name))
         elif name in _INT32:
             setattr(options, name, int32(value, name))

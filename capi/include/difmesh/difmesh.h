@@ -12,7 +12,7 @@
  *     dif_mesh* mesh = NULL;
  *     if (dif_field_init(&field, sizeof field, c, DIF_FLOAT64, dims) != DIF_OK ||
  *         dif_reconstruct(&field, NULL, &mesh) != DIF_OK ||
- *         dif_mesh_write(mesh, "surface.ply", NULL) != DIF_OK) {
+ *         dif_mesh_write(mesh, "surface.ply", NULL, NULL) != DIF_OK) {
  *       fprintf(stderr, "%s\n", dif_last_message());
  *     }
  *     dif_mesh_free(mesh);
@@ -746,18 +746,6 @@ DIF_API dif_status dif_mesh_smooth(const dif_mesh* mesh, const dif_grid* grid,
  * resolved, unless `outside_files` is set: a file from a stranger must not read others. All functions return UNSUPPORTED in a
  * build without files. */
 
-/* Formats of meshes. */
-enum {
-  DIF_MESH_FORMAT_BY_EXTENSION = 0,
-  DIF_MESH_FORMAT_PLY = 1, /* binary, float64 */
-  DIF_MESH_FORMAT_OBJ = 2,
-  DIF_MESH_FORMAT_OFF = 3,
-  DIF_MESH_FORMAT_STL = 4,  /* binary, float32 */
-  DIF_MESH_FORMAT_GLB = 5,  /* binary glTF, float32 about the centre */
-  DIF_MESH_FORMAT_GLTF = 6, /* the same as text */
-  DIF_MESH_FORMAT_DRC = 7   /* Draco: coordinates rounded to steps, the order changed */
-};
-
 /* How Draco orders a mesh. */
 enum {
   DIF_DRACO_DEFAULT = 0,     /* EDGEBREAKER */
@@ -778,14 +766,13 @@ enum {
   DIF_UP_Z = 2        /* a root node turns z up to y up; the coordinates below it are as they are */
 };
 
-/* "glTF" is .glb and .gltf; "Draco" is .drc, and glTF with `draco`. For other formats draco,
- * colour_by, up and metres_per_unit must be left as they are, and the rest has no effect. */
+/* "glTF" is .glb and .gltf; "Draco" is .drc, and glTF with `draco`. What a format cannot honour must be
+ * left as it is. */
 typedef struct dif_mesh_write_options {
   uint64_t struct_size;
-  int32_t format;        /* DIF_MESH_FORMAT_...; BY_EXTENSION */
+  const char* format;    /* an extension, such as "ply"; NULL, the default: that of the path */
   int32_t normals;       /* 1, the default: write them, where mesh and format have them */
   int32_t edge_ids;      /* 1, the default: likewise */
-  int32_t reserved;      /* 0 */
   int32_t scalars;       /* 1, the default: likewise; PLY, glTF and Draco */
   int32_t draco;         /* 1: compress glTF, with KHR_draco_mesh_compression; default 0 */
   int32_t draco_method;  /* DIF_DRACO_...; EDGEBREAKER */
@@ -810,12 +797,6 @@ typedef struct dif_mesh_write_options {
 /* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
 DIF_API dif_status dif_mesh_write_options_init(dif_mesh_write_options* options,
                                                uint64_t struct_size);
-/* Errors: INVALID_ARGUMENT, INVALID_VALUE (a position or scalar that is not finite; for glTF and Draco
- * a mesh without triangles), TOO_LARGE, FILE_WRITE, STRUCT, OUT_OF_MEMORY, UNSUPPORTED (DIF_PART_GLTF
- * or DIF_PART_DRACO is not there). Since 0.1. */
-DIF_API dif_status dif_mesh_write(const dif_mesh* mesh, const char* path,
-                                  const dif_mesh_write_options* options);
-
 /* What became of a mesh in a file. Counts are those of the file: STL has three vertices per triangle,
  * the parts of a split glTF repeat some, and Draco adds some where the mesh is not manifold. */
 typedef struct dif_mesh_write_report {
@@ -833,11 +814,14 @@ typedef struct dif_mesh_write_report {
 
 /* Prepares an output struct. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
 DIF_API dif_status dif_mesh_write_report_init(dif_mesh_write_report* report, uint64_t struct_size);
-/* dif_mesh_write() that tells what it wrote. `report` may be NULL; one that cannot be filled is
- * refused before anything is written. Errors: likewise. Since 0.1. */
-DIF_API dif_status dif_mesh_write_reported(const dif_mesh* mesh, const char* path,
-                                           const dif_mesh_write_options* options,
-                                           dif_mesh_write_report* report);
+/* Writes .ply (float64), .obj, .off, .stl (float32), .glb, .gltf (glTF, float32 about the centre) or .drc
+ * (Draco), told by the extension or the options. `report` may be NULL; one that cannot be filled is
+ * refused before anything is written. Errors: INVALID_ARGUMENT, INVALID_VALUE (a position or scalar
+ * that is not finite; for glTF and Draco a mesh without triangles), TOO_LARGE, FILE_WRITE, STRUCT,
+ * OUT_OF_MEMORY, UNSUPPORTED (DIF_PART_GLTF or DIF_PART_DRACO is not there). Since 0.1. */
+DIF_API dif_status dif_mesh_write(const dif_mesh* mesh, const char* path,
+                                  const dif_mesh_write_options* options,
+                                  dif_mesh_write_report* report);
 /* Reads .ply, .obj, .off, .stl, .glb, .gltf or .drc, told by the extension.
  * Errors: FILE_MISSING, FILE_FORMAT, TOO_LARGE, OUT_OF_MEMORY, UNSUPPORTED (as above; FILE_FORMAT for
  * compressed glTF). Since 0.1. */

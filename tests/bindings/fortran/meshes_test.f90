@@ -229,7 +229,6 @@ contains
   subroutine test_mesh_files()
     real(8), target :: c(24, 19, 21)
     type(dif_mesh) :: mesh, again
-    type(dif_mesh_write_options) :: options
     type(dif_mesh_write_report) :: report
     integer :: status
     character(1000) :: message
@@ -248,9 +247,7 @@ contains
     call expect(status == dif_error_file_write .and. report%bytes == 0, 'nothing was written')
     call again%read('meshes_test.ply', status)
     call expect_same(mesh, again, 'a file')
-    call dif_init(options)
-    options%format = dif_mesh_format_off
-    call mesh%write('meshes_test.ply', status, options)
+    call mesh%write('meshes_test.ply', status, format='off')
     call again%read('meshes_test.ply', status, message)
     call expect(status == dif_error_file_format, 'not what the extension says')
     call again%read('no_such.ply', status, message)

@@ -84,7 +84,6 @@ class Interface(unittest.TestCase):
             ("_options", "_NORMALS", "DIF_NORMALS_"),
             ("_options", "_SIDES", "DIF_SIDE_"),
             ("_fractions", "_SHAPES", "DIF_SHAPE_"),
-            ("_write_options", "_FORMATS", "DIF_MESH_FORMAT_"),
             ("_write_options", "_DRACO_METHODS", "DIF_DRACO_"),
             ("_write_options", "_COLOUR_MAPS", "DIF_COLOUR_MAP_"),
             ("_write_options", "_UP_AXES", "DIF_UP_"),

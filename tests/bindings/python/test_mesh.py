@@ -419,7 +419,7 @@ class Files(unittest.TestCase):
         mesh = difmesh.Mesh(*CUBE)
         for part, options in (("gltf", {}), ("draco", {"format": "drc"}), ("draco", {"draco": 9})):
             if not difmesh.has(part):
-                with self.assertRaisesRegex(difmesh.UnsupportedError, f"(?i)no {part}|no gltf"):
+                with self.assertRaisesRegex(difmesh.UnsupportedError, f"(?i)without {part}|without gltf"):
                     mesh.save(self.path("cube.glb"), **options)
         if not difmesh.has("draco"):
             with self.assertRaises(difmesh.UnsupportedError):
@@ -455,7 +455,7 @@ class Files(unittest.TestCase):
         ):
             with self.assertRaises(exception):
                 mesh.save(self.path(path))
-        with self.assertRaises(ValueError):
+        with self.assertRaisesRegex(difmesh.InvalidArgumentError, "'plyy'.*\\.ply"):
             mesh.save(self.path("cube.ply"), format="plyy")
         self.assertEqual(os.listdir(self.folder), [])
         with self.assertRaises(OSError) as caught:
