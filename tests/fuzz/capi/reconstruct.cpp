@@ -175,7 +175,7 @@ void check_same(const dif_mesh* whole, const dif_mesh* welded) {
 }  // namespace
 
 void call_reconstruct(Input& input) {
-  Field field(input, 81);  // columns of nine cells, nine of them
+  Field field(input, 125);
   dif_options options = draw_options(input, field);
   Watch watch(input);
   const bool wants_planes = input.number(4) == 1;
