@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "difmesh/cell_planes.hpp"
 #include "difmesh/constrained_smoothing.hpp"
 #include "difmesh/curvature.hpp"
 #include "difmesh/mollify.hpp"
-#include "difmesh/normals.hpp"
 #include "difmesh/reconstruct.hpp"
 #include "difmesh/smoothing.hpp"
 #include "fields.hpp"

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "command.hpp"
+#include "difmesh/cell_planes.hpp"
 #include "difmesh/error.hpp"
 #include "difmesh/measure.hpp"
 #include "difmesh/mollify.hpp"
-#include "difmesh/normals.hpp"
 #include "difmesh/reconstruct.hpp"
 #include "field_input.hpp"
 #include "json.hpp"

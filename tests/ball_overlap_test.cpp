@@ -1,4 +1,4 @@
-#include "ball_overlap.hpp"
+#include "shapes/ball_overlap.hpp"
 
 #include <doctest/doctest.h>
 

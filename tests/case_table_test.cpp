@@ -1,7 +1,7 @@
 // Geometry of the case table: loops, disks, faces, and triangles that never intersect. Positions
 // are integers on a cell of kSide units, so that every sign below is exact.
 
-#include "case_table.hpp"
+#include "surface/case_table.hpp"
 
 #include <doctest/doctest.h>
 

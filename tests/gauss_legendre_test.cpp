@@ -1,5 +1,5 @@
 // Gauss-Legendre rules: exact on polynomials, and where they cut functions with a kink.
-#include "gauss_legendre.hpp"
+#include "sampling/gauss_legendre.hpp"
 
 #include <doctest/doctest.h>
 

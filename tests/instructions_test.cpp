@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "difmesh/normals.hpp"
+#include "difmesh/cell_planes.hpp"
 #include "difmesh/reconstruct.hpp"
-#include "kernels.hpp"
+#include "planes/kernels.hpp"
 #include "support/fields.hpp"
 
 using namespace difmesh;

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "difmesh/normals.hpp"
+#include "difmesh/cell_planes.hpp"
 #include "difmesh/plane.hpp"
 #include "difmesh/reconstruct.hpp"
 #include "difmesh/shapes.hpp"

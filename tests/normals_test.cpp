@@ -1,5 +1,3 @@
-#include "difmesh/normals.hpp"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "difmesh/cell_planes.hpp"
 #include "difmesh/error.hpp"
 #include "difmesh/reconstruct.hpp"
 #include "support/fields.hpp"

@@ -5,7 +5,7 @@
 
 #include "boundary.hpp"
 #include "convert.hpp"
-#include "difmesh/normals.hpp"
+#include "difmesh/cell_planes.hpp"
 #include "difmesh/plane.hpp"
 
 namespace capi = difmesh::capi;

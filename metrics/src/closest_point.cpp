@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "vec3.hpp"
+#include "base/vector3.hpp"
 
 namespace difmesh::detail {
 namespace {
@@ -20,8 +20,8 @@ double sum(const Vec3& weights) noexcept {
 
 /// \pre the sum of the weights is positive
 Vec3 combine(const Vec3& weights, const Corners& corners) noexcept {
-  const Vec3 sides = plus(times(weights[0], corners[0]), times(weights[1], corners[1]));
-  return times(1.0 / sum(weights), plus(sides, times(weights[2], corners[2])));
+  const Vec3 sides = plus(scaled(corners[0], weights[0]), scaled(corners[1], weights[1]));
+  return scaled(plus(sides, scaled(corners[2], weights[2])), 1.0 / sum(weights));
 }
 
 Vec3 closest_on_sides(const Corners& corners) noexcept {
@@ -47,8 +47,8 @@ Vec3 closest_on_segment(const Vec3& a, const Vec3& b) noexcept {
   }
   // From the nearer end, so that rounding is in proportion to the shorter way.
   const double whole = past_a + before_b;
-  return past_a < before_b ? plus(a, times(past_a / whole, way))
-                           : minus(b, times(before_b / whole, way));
+  return past_a < before_b ? plus(a, scaled(way, past_a / whole))
+                           : minus(b, scaled(way, before_b / whole));
 }
 
 Vec3 closest_on_triangle(const Corners& corners) noexcept {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <memory>
 
+#include "base/parallel.hpp"
+#include "base/position_text.hpp"
 #include "difmesh/error.hpp"
 #include "difmesh/float_environment.hpp"
 #include "distance_field.hpp"
-#include "parallel.hpp"
-#include "position_text.hpp"
 #include "reference_surface.hpp"
 #include "sampling.hpp"
 #include "surface_view.hpp"

@@ -5,10 +5,10 @@
 #include <memory>
 #include <string>
 
+#include "base/first_error.hpp"
+#include "base/parallel.hpp"
 #include "difmesh/error.hpp"
 #include "difmesh/float_environment.hpp"
-#include "first_error.hpp"
-#include "parallel.hpp"
 #include "reference_surface.hpp"
 #include "surface_view.hpp"
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "closed_surface.hpp"
+#include "mesh/closed_surface.hpp"
 
 namespace difmesh::detail {
 namespace {
@@ -61,7 +61,7 @@ Vec3 unit_normal(const Corners& corners) {
                       : longest2 == bc2 ? cross(ca, ab)
                                         : cross(ab, bc);
   const double size = length(normal);
-  return size > kFlat * longest2 ? times(1.0 / size, normal) : Vec3{0, 0, 0};
+  return size > kFlat * longest2 ? scaled(normal, 1.0 / size) : Vec3{0, 0, 0};
 }
 
 /// The angle that a triangle takes up around the origin, which lies on it: 2π within it, half of
@@ -89,11 +89,11 @@ class ReferenceProbe final : public DistanceProbe {
       : tree_(tree), scale_(scale), with_sign_(with_sign) {}
 
   double measure(const Vec3& point) override {
-    const Vec3 scaled = times(scale_, point);
-    const TriangleTree::Nearest nearest = tree_.nearest(scaled, guess_);
+    const Vec3 in_units = scaled(point, scale_);
+    const TriangleTree::Nearest nearest = tree_.nearest(in_units, guess_);
     guess_ = nearest.triangle;
     const double distance = std::sqrt(nearest.distance2) / scale_;
-    return with_sign_ && is_inside(scaled, nearest) ? -distance : distance;
+    return with_sign_ && is_inside(in_units, nearest) ? -distance : distance;
   }
 
  private:
@@ -117,7 +117,7 @@ class ReferenceProbe final : public DistanceProbe {
       // Rounding is in proportion to this triangle's size too.
       const double same_here = std::max(same, kSame * size_of(corners));
       if (length(closest_on_triangle(corners)) <= same_here) {
-        sum = plus(sum, times(angle_around(corners, same, same_here), unit_normal(corners)));
+        sum = plus(sum, scaled(unit_normal(corners), angle_around(corners, same, same_here)));
       }
     }
     return sum;

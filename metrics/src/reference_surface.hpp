@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <memory>
 
+#include "base/parallel.hpp"
 #include "distance_field.hpp"
-#include "parallel.hpp"
 #include "surface_view.hpp"
 #include "triangle_tree.hpp"
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "base/first_error.hpp"
+#include "base/position_text.hpp"
 #include "difmesh/error.hpp"
 #include "facet_points.hpp"
-#include "first_error.hpp"
-#include "position_text.hpp"
 #include "tally.hpp"
 
 namespace difmesh::detail {
@@ -36,7 +36,7 @@ struct Extent {
 
 Extent extent_of(const SurfaceView& surface, std::size_t triangle) {
   const Vec3& base = surface.positions[surface.triangles[triangle][0]];
-  const auto [a, b, c] = surface.corners(triangle, times(surface.scale, base));
+  const auto [a, b, c] = surface.corners(triangle, scaled(base, surface.scale));
   const Vec3 bc = minus(c, b);
   return {0.5 * length(cross(b, c)),
           std::sqrt(std::max({squared_length(b), squared_length(c), squared_length(bc)}))};
@@ -161,7 +161,7 @@ class Sampling {
     for_each_facet_point(parts, [&](const Vec3& weights, double share) {
       // From one corner: a weighted sum of positions would round several times in proportion to
       // their distance from the origin.
-      const Vec3 position = plus(base, plus(times(weights[1], to_b), times(weights[2], to_c)));
+      const Vec3 position = plus(base, plus(scaled(to_b, weights[1]), scaled(to_c, weights[2])));
       const double distance = probe.measure(position);
       if (!std::isfinite(distance)) {
         throw_not_finite(distance, "a point of triangle " + std::to_string(t), position);

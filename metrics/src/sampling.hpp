@@ -1,9 +1,9 @@
 #pragma once
 // Measures the points of a surface against a field of distances.
 
+#include "base/parallel.hpp"
 #include "difmesh/distance.hpp"
 #include "distance_field.hpp"
-#include "parallel.hpp"
 #include "surface_view.hpp"
 
 namespace difmesh::detail {

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <span>
 
+#include "base/vector3.hpp"
 #include "closest_point.hpp"
 #include "difmesh/mesh.hpp"
-#include "vec3.hpp"
 
 namespace difmesh::detail {
 
@@ -32,8 +32,8 @@ struct SurfaceView {
   /// Corners of a triangle relative to a point, both in scaled units.
   [[nodiscard]] Corners corners(std::size_t triangle, const Vec3& point) const noexcept {
     const auto [a, b, c] = triangles[triangle];
-    return {minus(times(scale, positions[a]), point), minus(times(scale, positions[b]), point),
-            minus(times(scale, positions[c]), point)};
+    return {minus(scaled(positions[a], scale), point), minus(scaled(positions[b], scale), point),
+            minus(scaled(positions[c], scale), point)};
   }
 };
 

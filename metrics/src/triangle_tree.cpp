@@ -11,7 +11,7 @@
 
 #include "difmesh/error.hpp"
 #ifdef DIFMESH_WITH_TBB
-#include "arena_lease.hpp"
+#include "base/arena_lease.hpp"
 #endif
 
 namespace difmesh::detail {

@@ -1,5 +1,7 @@
 // The adapters for users of libdifmesh alone: the C++ core is not linked here.
 
+#include "difmesh/c_mesh.hpp"
+
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
@@ -9,7 +11,6 @@
 
 #include "adapters/openmesh_meshes.hpp"
 #include "difmesh/cgal.hpp"
-#include "difmesh/difmesh.h"
 #include "difmesh/openmesh.hpp"
 #include "support/fields.hpp"
 
@@ -66,9 +67,9 @@ TEST_CASE("c mesh: to OpenMesh and CGAL and back to fractions") {
   for (const OwnedField& cells : {blob({14, 13, 12}), white_noise({9, 10, 11}, 3)}) {
     const Owned mesh = surface_of(cells);
     // Any numbers will do: of three times as many coordinates, the first.
-    REQUIRE(dif_mesh_set_scalars(mesh.get(), "height", MeshView(mesh.get()).positions) == DIF_OK);
-    const auto opened = to_openmesh<DoubleTriangles>(mesh.get());
-    const auto surface = to_cgal<SurfaceMesh>(mesh.get());
+    REQUIRE(dif_mesh_set_scalars(mesh.get(), "height", view_of(mesh.get()).positions) == DIF_OK);
+    const auto opened = to_openmesh<DoubleTriangles>(view_of(mesh.get()));
+    const auto surface = to_cgal<SurfaceMesh>(view_of(mesh.get()));
     CHECK(opened.report.refused.empty());
     CHECK(surface.report.refused.empty());
     CHECK(judged_by_openmesh(opened.mesh).empty());
@@ -76,8 +77,8 @@ TEST_CASE("c mesh: to OpenMesh and CGAL and back to fractions") {
     const std::vector<double> fractions = fractions_of(mesh.get(), cells.dims);
     for (const Mesh& back : {mesh_from_openmesh(opened.mesh), mesh_from_cgal(surface.mesh)}) {
       const Owned again(to_dif_mesh(back));
-      CHECK(same(MeshView(mesh.get()), MeshView(back)));
-      CHECK(same(MeshView(mesh.get()), MeshView(again.get())));
+      CHECK(same(view_of(mesh.get()), MeshView(back)));
+      CHECK(same(view_of(mesh.get()), view_of(again.get())));
       CHECK((fractions_of(again.get(), cells.dims) == fractions));
     }
   }
@@ -85,12 +86,12 @@ TEST_CASE("c mesh: to OpenMesh and CGAL and back to fractions") {
 
 TEST_CASE("c mesh: an empty one and none at all") {
   const Owned empty = surface_of(OwnedField({5, 5, 5}));
-  const auto opened = to_openmesh<DoubleTriangles>(empty.get());
+  const auto opened = to_openmesh<DoubleTriangles>(view_of(empty.get()));
   CHECK(opened.mesh.n_vertices() == 0);
   CHECK(opened.report.faces == 0);
-  CHECK(to_cgal<SurfaceMesh>(empty.get()).mesh.is_empty());
+  CHECK(to_cgal<SurfaceMesh>(view_of(empty.get())).mesh.is_empty());
   const dif_mesh* none = nullptr;
-  CHECK_THROWS_AS((void)to_openmesh<DoubleTriangles>(none), Error);
+  CHECK_THROWS_AS((void)view_of(none), Error);
   Mesh bad;
   bad.positions.resize(3, {0.0, 0.0, 0.0});
   bad.triangles.push_back({0, 1, 3});

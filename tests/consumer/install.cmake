@@ -40,6 +40,9 @@ foreach(part IN LISTS outer_parts)
       ${outer_libdir}/libdifmesh.so.0
       ${outer_libdir}/libdifmesh.so.${outer_version}
       ${outer_libdir}/pkgconfig/difmesh.pc)
+    if("adapters" IN_LIST outer_parts)
+      list(APPEND expected ${outer_includedir}/difmesh/c_mesh.hpp)
+    endif()
     continue()
   elseif(part STREQUAL "capi_static")
     list(APPEND expected ${outer_libdir}/libdifmesh.a)

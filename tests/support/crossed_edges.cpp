@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-#include "difmesh/normals.hpp"
+#include "difmesh/cell_planes.hpp"
 #include "support/dual_edges.hpp"
 
 namespace difmesh::test {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "difmesh/grid.hpp"
 #include "difmesh/options.hpp"
 #include "support/algorithm1.hpp"
 

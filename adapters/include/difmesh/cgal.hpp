@@ -3,7 +3,7 @@
 /// Surfaces into CGAL and back, without files: to_cgal, append_to_cgal, mesh_from_cgal. For
 /// CGAL::Surface_mesh over any kernel, and any model of MutableFaceGraph whose vertices have points:
 /// Polyhedron_3, OpenMesh's meshes through CGAL/boost/graph. Header-only; users link CGAL, and
-/// nothing of difmesh, but libdifmesh where they hand over a `const dif_mesh*`.
+/// nothing of difmesh. For meshes of libdifmesh see c_mesh.hpp.
 ///
 /// Licences: difmesh is under MIT and includes of CGAL only headers under the LGPL here. CGAL's
 /// Surface_mesh, Polyhedron_3 and Polygon_mesh_processing are under the GPL (or a commercial licence

@@ -1,9 +1,8 @@
 #pragma once
 /// \file mesh_view.hpp
 /// What the adapters to mesh libraries read from and what they tell. Types only: nothing of difmesh
-/// has to be linked, but libdifmesh where a `const dif_mesh*` is handed over.
+/// has to be linked. For meshes of libdifmesh see c_mesh.hpp.
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -13,13 +12,6 @@
 #include "difmesh/error.hpp"
 #include "difmesh/mesh.hpp"
 
-#if defined(__has_include)
-#if __has_include("difmesh/difmesh.h")
-#include "difmesh/difmesh.h"
-#define DIFMESH_HAS_C_MESH 1
-#endif
-#endif
-
 namespace difmesh {
 
 /// A view of a VertexScalar.
@@ -28,8 +20,9 @@ struct ScalarView {
   std::span<const double> values = {};  ///< one per vertex
 };
 
-/// A triangle mesh in memory that others own: a Mesh, a C `dif_mesh`, or arrays of any origin, which
-/// need be neither manifold nor well oriented. Valid as long as these are neither changed nor freed.
+/// A triangle mesh in memory that others own: a Mesh, a C `dif_mesh` (c_mesh.hpp), or arrays of any
+/// origin, which need be neither manifold nor well oriented. Valid as long as these are neither
+/// changed nor freed.
 struct MeshView {
   const double* positions = nullptr;        ///< x, y, z per vertex, in the unit of the grid
   std::int64_t vertices = 0;                ///< how many
@@ -61,29 +54,6 @@ struct MeshView {
       scalars.push_back({scalar.name, scalar.values});
     }
   }
-
-#ifdef DIFMESH_HAS_C_MESH
-  /// \throw Error invalid_argument if libdifmesh refuses to show the mesh, as it does for null.
-  MeshView(const dif_mesh* mesh) {  // NOLINT(google-explicit-constructor)
-    std::int64_t with_normals = 0;
-    std::int64_t with_edge_ids = 0;
-    if (dif_mesh_positions(mesh, &positions, &vertices) != DIF_OK ||
-        dif_mesh_triangles(mesh, &indices, &triangles) != DIF_OK ||
-        dif_mesh_normals(mesh, &normals, &with_normals) != DIF_OK ||
-        dif_mesh_edge_ids(mesh, &edge_ids, &with_edge_ids) != DIF_OK) {
-      throw Error(ErrorCode::invalid_argument, "the dif_mesh cannot be read");
-    }
-    const char* name = nullptr;
-    for (std::int64_t n = 0; dif_mesh_scalars_name(mesh, n, &name) == DIF_OK && name != nullptr;
-         ++n) {
-      const double* values = nullptr;
-      std::int64_t count = 0;
-      if (dif_mesh_scalars(mesh, name, &values, &count) == DIF_OK) {
-        scalars.push_back({name, {values, static_cast<std::size_t>(count)}});
-      }
-    }
-  }
-#endif
 };
 
 /// What comes along with the positions and triangles.
@@ -118,29 +88,6 @@ struct ImportReport {
   std::int64_t faces = 0;                 ///< added
   std::vector<RefusedFace> refused = {};  ///< by ascending triangle
 };
-
-#ifdef DIFMESH_HAS_C_MESH
-/// The arrays of a mesh that came back from another library as a C mesh, for dif_fractions_from_mesh()
-/// and others. To be freed by dif_mesh_free().
-/// \throw Error invalid_argument with the message of libdifmesh
-[[nodiscard]] inline dif_mesh* to_dif_mesh(const Mesh& mesh) {
-  const MeshView view(mesh);
-  dif_mesh* result = nullptr;
-  const auto set_scalar = [&result](const ScalarView& scalar) {
-    return dif_mesh_set_scalars(result, scalar.name.c_str(), scalar.values.data()) == DIF_OK;
-  };
-  if (dif_mesh_from_arrays(view.positions, view.vertices, view.indices, view.triangles, &result) !=
-          DIF_OK ||
-      dif_mesh_set_normals(result, view.normals) != DIF_OK ||
-      dif_mesh_set_edge_ids(result, view.edge_ids) != DIF_OK ||
-      !std::all_of(view.scalars.begin(), view.scalars.end(), set_scalar)) {
-    const std::string message = dif_last_message();
-    dif_mesh_free(result);
-    throw Error(ErrorCode::invalid_argument, message);
-  }
-  return result;
-}
-#endif
 
 /// A new mesh of the library asked for, and the facts.
 template <class LibraryMesh>

@@ -2,8 +2,8 @@
 /// \file openmesh.hpp
 /// Surfaces into OpenMesh and back, without files: to_openmesh, append_to_openmesh,
 /// mesh_from_openmesh. For every TriMesh_ArrayKernelT and PolyMesh_ArrayKernelT of OpenMesh 9, with
-/// points of float or double. Header-only; users link OpenMeshCore, and nothing of difmesh, but
-/// libdifmesh where they hand over a `const dif_mesh*`.
+/// points of float or double. Header-only; users link OpenMeshCore, and nothing of difmesh. For
+/// meshes of libdifmesh see c_mesh.hpp.
 
 #include <algorithm>
 #include <cstddef>

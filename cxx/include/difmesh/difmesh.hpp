@@ -2,6 +2,7 @@
 /// \file difmesh.hpp
 /// All of the core in one include.
 
+#include "difmesh/cell_planes.hpp"
 #include "difmesh/constrained_smoothing.hpp"
 #include "difmesh/curvature.hpp"
 #include "difmesh/error.hpp"
@@ -14,7 +15,6 @@
 #include "difmesh/mesh.hpp"
 #include "difmesh/mesh_portion.hpp"
 #include "difmesh/mollify.hpp"
-#include "difmesh/normals.hpp"
 #include "difmesh/options.hpp"
 #include "difmesh/out_of_memory.hpp"
 #include "difmesh/plane.hpp"

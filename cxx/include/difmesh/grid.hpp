@@ -2,13 +2,11 @@
 /// \file grid.hpp
 /// The Cartesian grid of cells on which fractions live.
 
-#include <array>
 #include <cstdint>
 
-namespace difmesh {
+#include "difmesh/vec3.hpp"
 
-using Index3 = std::array<std::int64_t, 3>;  ///< (i,j,k): x, y, z in this order
-using Vec3 = std::array<double, 3>;          ///< (x,y,z)
+namespace difmesh {
 
 /// A Cartesian grid of dims[0] x dims[1] x dims[2] cuboid cells. Cell (i,j,k) covers
 /// origin + [i,i+1] dx x [j,j+1] dy x [k,k+1] dz. Lengths are in the caller's unit.

@@ -4,7 +4,8 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
+
+#include "difmesh/progress.hpp"
 
 namespace difmesh {
 
@@ -42,12 +43,6 @@ enum class Side : std::uint8_t {
 
 /// One per side: xlo, xhi, ylo, yhi, zlo, zhi.
 using Sides = std::array<Side, 6>;
-
-/// Called between portions of the work, always on the thread that called the library, with the
-/// share of the work done in [0,1], never decreasing. Return false to cancel: the call then throws
-/// Error with code cancelled. Calls come at least every tenth of the work or so, but for grids of a few
-/// rows, whose work is not worth dividing. May throw; the exception passes through.
-using Progress = std::function<bool(double share_done)>;
 
 struct Options {
   Placement placement = Placement::plic;

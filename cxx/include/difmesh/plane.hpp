@@ -2,7 +2,9 @@
 /// \file plane.hpp
 /// Planes in cuboid cells (PLIC): fraction from offset and offset from fraction. Usable alone.
 
-#include "difmesh/grid.hpp"
+#include <cstdint>
+
+#include "difmesh/vec3.hpp"
 
 namespace difmesh {
 
@@ -11,6 +13,17 @@ namespace difmesh {
 struct Plane {
   Vec3 normal{0.0, 0.0, 0.0};  ///< unit vector out of the material
   double offset = 0.0;         ///< signed distance of the plane from the centre, in the grid's unit
+};
+
+/// Where the normal of a cell came from; see cell_planes.hpp.
+enum class NormalSource : std::uint8_t {
+  none,    ///< no gradient: a lone droplet cell, a film symmetric about the cell. Normal is 0
+  youngs,  ///< weighted gradient
+  centred_columns,  ///< centred differences of columns of three (MYC)
+  height_function,  ///< differences of columns of nine
+  /// Fitted to the neighbours' fractions: elvira, lvira, and height_function where an open side
+  /// cuts the stencils short.
+  least_squares,
 };
 
 /// Share of a cuboid cell of the given spacing that lies in {normal·(x - centre) <= offset}, in

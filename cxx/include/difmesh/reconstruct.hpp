@@ -4,56 +4,18 @@
 
 #include <cstdint>
 
+#include "difmesh/block.hpp"
 #include "difmesh/field_view.hpp"
 #include "difmesh/grid.hpp"
 #include "difmesh/mesh.hpp"
 #include "difmesh/options.hpp"
+#include "difmesh/report.hpp"
 
 namespace difmesh {
-
-/// Facts about one reconstruction. Counts are of the block where a block was reconstructed.
-struct Report {
-  std::int64_t cells = 0;              ///< cells read
-  std::int64_t interfacial_cells = 0;  ///< tolerance < γ < 1 - tolerance
-  std::int64_t clamped_cells = 0;      ///< γ < 0 or γ > 1
-  double largest_overshoot = 0.0;      ///< largest distance of a γ from [0,1]
-  double fraction_volume = 0.0;        ///< Σγ|K| over the cells, clamped, in the unit of the grid
-  std::int64_t planes = 0;             ///< cells that were given a normal and a plane
-  std::int64_t height_function_cells = 0;  ///< of these, with a normal from heights
-  std::int64_t gradient_free_cells = 0;  ///< of these, without gradient: edge directions were used
-  std::int64_t solved_edges = 0;         ///< vertices placed by the half-full window
-  double newton_steps_mean = 0.0;        ///< steps per solved edge
-  std::int64_t newton_steps_max = 0;
-  std::int64_t non_monotone_edges =
-      0;                         ///< solved edges where the window's fraction is not monotone
-  bool closed = true;            ///< no boundary edge; an empty mesh is closed
-  double enclosed_volume = 0.0;  ///< signed volume inside; 0 where not closed
-  struct Seconds {               ///< wall time by phase
-    double classify = 0.0;       ///< the one pass over the field: checks, sums, inside bits
-    double normals = 0.0;        ///< normals and planes
-    double count = 0.0;          ///< counting and allocation of the output
-    double vertices = 0.0;       ///< placement
-    double triangles = 0.0;      ///< connectivity, volume
-    double total = 0.0;
-  } seconds;
-};
 
 struct Reconstruction {
   Mesh mesh;
   Report report;
-};
-
-/// Ghost cells that a block needs beyond each of its faces, as far as the domain reaches (and
-/// beyond it on periodic sides): one for the dual cell and four for the column of heights.
-inline constexpr std::int64_t kGhostLayers = 5;
-
-/// A block of a larger grid. The field view given with it covers the cells
-/// [offset - ghost_low, offset + dims + ghost_high) of the whole grid.
-struct Block {
-  Index3 offset{0, 0, 0};      ///< first cell of the block in the whole grid
-  Index3 dims{0, 0, 0};        ///< cells of the block
-  Index3 ghost_low{0, 0, 0};   ///< ghost cells before the block in x, y, z
-  Index3 ghost_high{0, 0, 0};  ///< ghost cells after it
 };
 
 /// Reconstructs the surface of the whole field.

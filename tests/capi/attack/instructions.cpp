@@ -1,6 +1,6 @@
 #include "instructions.hpp"
 
-#include "kernels.hpp"
+#include "planes/kernels.hpp"
 
 namespace difmesh::attack {
 namespace {

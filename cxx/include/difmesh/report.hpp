@@ -1,0 +1,36 @@
+#pragma once
+/// \file report.hpp
+/// What a reconstruction tells beside its mesh.
+
+#include <cstdint>
+
+namespace difmesh {
+
+/// Facts about one reconstruction. Counts are of the block where a block was reconstructed.
+struct Report {
+  std::int64_t cells = 0;              ///< cells read
+  std::int64_t interfacial_cells = 0;  ///< tolerance < γ < 1 - tolerance
+  std::int64_t clamped_cells = 0;      ///< γ < 0 or γ > 1
+  double largest_overshoot = 0.0;      ///< largest distance of a γ from [0,1]
+  double fraction_volume = 0.0;        ///< Σγ|K| over the cells, clamped, in the unit of the grid
+  std::int64_t planes = 0;             ///< cells that were given a normal and a plane
+  std::int64_t height_function_cells = 0;  ///< of these, with a normal from heights
+  std::int64_t gradient_free_cells = 0;  ///< of these, without gradient: edge directions were used
+  std::int64_t solved_edges = 0;         ///< vertices placed by the half-full window
+  double newton_steps_mean = 0.0;        ///< steps per solved edge
+  std::int64_t newton_steps_max = 0;
+  /// Solved edges where the window's fraction is not monotone.
+  std::int64_t non_monotone_edges = 0;
+  bool closed = true;            ///< no boundary edge; an empty mesh is closed
+  double enclosed_volume = 0.0;  ///< signed volume inside; 0 where not closed
+  struct Seconds {               ///< wall time by phase
+    double classify = 0.0;       ///< the one pass over the field: checks, sums, inside bits
+    double normals = 0.0;        ///< normals and planes
+    double count = 0.0;          ///< counting and allocation of the output
+    double vertices = 0.0;       ///< placement
+    double triangles = 0.0;      ///< connectivity, volume
+    double total = 0.0;
+  } seconds;
+};
+
+}  // namespace difmesh

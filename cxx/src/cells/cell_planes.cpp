@@ -1,0 +1,130 @@
+#include "difmesh/cell_planes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "cells/classify.hpp"
+#include "difmesh/error.hpp"
+#include "difmesh/float_environment.hpp"
+#include "grid/block_field.hpp"
+#include "planes/cube_fraction.hpp"
+#include "planes/normal_stencil.hpp"
+
+namespace difmesh {
+namespace {
+
+using detail::BlockField;
+
+constexpr std::int64_t kCellsPerPortion = 256;
+constexpr std::int64_t kCellsPerRowPortion = 1 << 16;
+
+BlockField whole_field(const FieldView& field, const Grid& grid, const Options& options) {
+  return detail::make_block_field(field, {{0, 0, 0}, grid.dims, {}, {}}, grid, options);
+}
+
+void check_cells(const Grid& grid, std::span<const Index3> cells) {
+  for (std::size_t n = 0; n < cells.size(); ++n) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (cells[n][axis] < 0 || cells[n][axis] >= grid.dims[axis]) {
+        throw Error(ErrorCode::invalid_argument,
+                    "cell_planes: cell number " + std::to_string(n) + " of the list, (" +
+                        std::to_string(cells[n][0]) + ", " + std::to_string(cells[n][1]) + ", " +
+                        std::to_string(cells[n][2]) + "), is outside the grid");
+      }
+    }
+  }
+}
+
+template <class T>
+CellPlane plane_of(const BlockField& field, const detail::NormalStencil<T>& stencil,
+                   const Index3& cell) {
+  const detail::UnitNormal unit = stencil(cell);
+  CellPlane result;
+  result.source = unit.source;
+  if (unit.source == NormalSource::none) {
+    return result;
+  }
+  Vec3 normal;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    normal[axis] = unit.m[axis] / field.grid.spacing[axis];
+  }
+  const double length = std::hypot(normal[0], normal[1], normal[2]);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    result.plane.normal[axis] = normal[axis] / length;
+  }
+  result.plane.offset =
+      detail::cube_offset(unit.m[0], unit.m[1], unit.m[2], field.fraction(cell)) / length;
+  return result;
+}
+
+template <class T>
+void list_row(const BlockField& field, std::int64_t row, std::vector<Index3>& cells) {
+  const std::int64_t j = row % field.grid.dims[1];
+  const std::int64_t k = row / field.grid.dims[1];
+  const T* first = static_cast<const T*>(field.view.data) + field.element({0, j, k});
+  for (std::int64_t i = 0; i < field.grid.dims[0]; ++i) {
+    if (field.is_interfacial(detail::fraction_of(first[i * field.view.strides[0]]))) {
+      cells.push_back({i, j, k});
+    }
+  }
+}
+
+}  // namespace
+
+void cell_planes(const FieldView& field, const Grid& grid, std::span<const Index3> cells,
+                 const Options& options, std::span<CellPlane> planes) {
+  const DefaultFloatEnvironment environment;
+  if (cells.size() != planes.size()) {
+    throw Error(ErrorCode::invalid_argument, "cell_planes: " + std::to_string(cells.size()) +
+                                                 " cells but room for " +
+                                                 std::to_string(planes.size()) + " planes");
+  }
+  const BlockField block = whole_field(field, grid, options);
+  check_cells(grid, cells);
+  detail::Workers workers(options.threads);
+  detail::Phases phases(workers, options.progress);
+  detail::with_scalar(field.type, [&](auto type) {
+    const detail::NormalStencil<decltype(type)> stencil(block, options.normals);
+    phases.run(1.0, static_cast<std::int64_t>(cells.size()), kCellsPerPortion,
+               [&](std::int64_t begin, std::int64_t end) {
+                 for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end);
+                      ++n) {
+                   planes[n] = plane_of(block, stencil, cells[n]);
+                 }
+               });
+  });
+  phases.finish();
+}
+
+Array<Index3> interfacial_cells(const FieldView& field, const Grid& grid, const Options& options) {
+  const DefaultFloatEnvironment environment;
+  const BlockField block = whole_field(field, grid, options);
+  detail::Workers workers(options.threads);
+  detail::Phases phases(workers, options.progress);
+  Report report;
+  detail::LayerPlanes no_planes;
+  static_cast<void>(
+      detail::classify(block, {options.overshoot_bound, no_planes}, 0.5, phases, report));
+  const std::int64_t rows = grid.dims[1] * grid.dims[2];
+  const std::int64_t grain = std::max<std::int64_t>(1, kCellsPerRowPortion / grid.dims[0]);
+  std::vector<std::vector<Index3>> portions(static_cast<std::size_t>((rows + grain - 1) / grain));
+  detail::with_scalar(field.type, [&](auto type) {
+    phases.run(0.5, rows, grain, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t row = begin; row < end; ++row) {
+        list_row<decltype(type)>(block, row, portions[static_cast<std::size_t>(begin / grain)]);
+      }
+    });
+  });
+  Array<Index3> cells;
+  cells.reserve(static_cast<std::size_t>(report.interfacial_cells));
+  for (const std::vector<Index3>& portion : portions) {
+    cells.insert(cells.end(), portion.begin(), portion.end());
+  }
+  phases.finish();
+  return cells;
+}
+
+}  // namespace difmesh

@@ -1,0 +1,112 @@
+#pragma once
+// The field as the phases see it: cells of the whole grid by global index, of which a block with
+// its ghost layers is in memory, and what stands beyond the sides of the domain.
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include "difmesh/block.hpp"
+#include "difmesh/field_view.hpp"
+#include "difmesh/grid.hpp"
+#include "difmesh/options.hpp"
+
+namespace difmesh::detail {
+
+/// What a cell index outside the cells in memory stands for.
+inline constexpr std::int64_t kMissing = std::numeric_limits<std::int64_t>::min();
+inline constexpr std::int64_t kEmptyBeyond = kMissing + 1;
+inline constexpr std::int64_t kFullBeyond = kMissing + 2;
+/// True where resolve() found a cell in memory.
+[[nodiscard]] constexpr bool is_cell(std::int64_t resolved) {
+  return resolved > kFullBeyond;
+}
+
+/// One axis of the domain and of the cells in memory.
+struct AxisCells {
+  std::int64_t count = 0;  ///< cells of the whole grid
+  std::int64_t low = 0;    ///< cells in memory: [low, high), in global indices
+  std::int64_t high = 0;
+  std::array<Side, 2> sides{Side::open, Side::open};
+
+  /// The cell in memory that stands for any global index, or one of the constants above.
+  [[nodiscard]] std::int64_t resolve(std::int64_t index) const {
+    while (index < low || index >= high) {
+      const bool below = index < 0;
+      switch (sides[below ? 0 : 1]) {
+        case Side::open:
+          return kMissing;
+        case Side::empty:
+          return kEmptyBeyond;
+        case Side::full:
+          return kFullBeyond;
+        case Side::mirror:
+          index = below ? -1 - index : 2 * count - 1 - index;
+          break;
+        case Side::periodic:
+          index += below ? count : -count;
+          break;
+      }
+    }
+    return index;
+  }
+};
+
+/// Elements as fractions in [0,1]; what is no number counts as 0.
+template <class T>
+[[nodiscard]] inline double fraction_of(T value) {
+  if constexpr (std::is_integral_v<T>) {
+    return static_cast<double>(value) / static_cast<double>(std::numeric_limits<T>::max());
+  } else {
+    const auto wide = static_cast<double>(value);
+    return wide > 0.0 ? (wide < 1.0 ? wide : 1.0) : 0.0;
+  }
+}
+
+/// Field, block, grid and sides of one reconstruction. \pre checked by make_block_field().
+struct BlockField {
+  Grid grid;
+  Block block;
+  Sides sides{};
+  FieldView view;  ///< as given: its cell 0 is the first in memory
+  std::array<AxisCells, 3> axes;
+  double purity_tolerance = 0.0;
+
+  [[nodiscard]] Side side(int axis, int high) const {
+    return sides[static_cast<std::size_t>(2 * axis + high)];
+  }
+  /// Element offset of a cell in memory from view.data.
+  [[nodiscard]] std::int64_t element(const Index3& cell) const {
+    return (cell[0] - axes[0].low) * view.strides[0] + (cell[1] - axes[1].low) * view.strides[1] +
+           (cell[2] - axes[2].low) * view.strides[2];
+  }
+  /// Fraction of a cell in memory, or beyond `empty` and `full` sides; `empty` wins where both
+  /// meet. \pre no index is kMissing
+  [[nodiscard]] double fraction(const Index3& resolved) const;
+  /// True where 0 and 1 are further away than the tolerance.
+  [[nodiscard]] bool is_interfacial(double fraction) const {
+    return fraction > purity_tolerance && fraction < 1.0 - purity_tolerance;
+  }
+};
+
+/// Checks field, block, grid and options against each other. \throw Error
+[[nodiscard]] BlockField make_block_field(const FieldView& field, const Block& block,
+                                          const Grid& grid, const Options& options);
+
+/// Calls body with a value of the C++ type of the elements.
+template <class Body>
+decltype(auto) with_scalar(ScalarType type, Body&& body) {
+  switch (type) {
+    case ScalarType::float32:
+      return body(float{});
+    case ScalarType::uint8:
+      return body(std::uint8_t{});
+    case ScalarType::uint16:
+      return body(std::uint16_t{});
+    case ScalarType::float64:
+      break;
+  }
+  return body(double{});
+}
+
+}  // namespace difmesh::detail

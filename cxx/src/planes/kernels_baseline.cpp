@@ -1,0 +1,1 @@
+#include "planes/kernels_impl.hpp"
