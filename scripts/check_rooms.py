@@ -33,7 +33,7 @@ PUBLIC = {
     "grid": ["block", "field_view", "grid", "options", "report"],
     "planes": ["plane"],
     "cells": ["cell_planes"],
-    "mesh": ["curvature", "measure", "mesh", "smoothing"],
+    "mesh": ["curvature", "measure", "mesh", "mesh_portion", "smoothing"],
     "surface": ["reconstruct", "weld"],
     "sampling": ["constrained_smoothing", "fractions_from_function", "fractions_from_mesh", "mollify",
                  "values"],

@@ -154,6 +154,14 @@ TEST_SUITE("reconstruct: bad input is named") {
     Options wide;
     wide.overshoot_bound = 0.2;
     CHECK(reconstruct_error(field, grid, wide) == "no error");
+    // The bound itself is allowed.
+    Options exact;
+    exact.overshoot_bound = 0.25;
+    field.at(68, 4, 2) = 1.25;
+    field.at(3, 0, 0) = -0.25;
+    CHECK(reconstruct_error(field, grid, exact) == "no error");
+    field.at(3, 0, 0) = std::nextafter(-0.25, -1.0);
+    CHECK(contains(reconstruct_error(field, grid, exact), "12: cell (3, 0, 0) holds -0.25"));
   }
 
   TEST_CASE("options") {
