@@ -40,7 +40,8 @@ constexpr const char* kFooter =
     "  difmesh sample torus -o torus.npy --cells 64   fractions of a known shape\n"
     "  difmesh reconstruct --help                    all options of one command\n"
     "\n"
-    "Exit codes: 0 done, 1 failed, 2 wrong arguments, 130 interrupted (Ctrl-C), 143 terminated.\n"
+    "Exit codes: 0 done, 1 failed, 2 wrong arguments, 128 + n ended by signal n\n"
+    "(129 hung up, 130 Ctrl-C, 131 quit, 143 terminated).\n"
     "Errors are one line on standard error. Output files appear whole or not at all.\n";
 
 int fail(const std::string& message, int exit_code) {

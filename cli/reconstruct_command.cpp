@@ -43,7 +43,7 @@ constexpr const char* kFooter =
     "Examples:\n"
     "  difmesh reconstruct drops.nrrd -o drops.ply\n"
     "  difmesh reconstruct drops.npy -o drops.stl --spacing 0.01 --boundary mirror\n"
-    "  difmesh reconstruct drops.nrrd -o drops.glb --draco --color-by mean-curvature\n"
+    "  difmesh reconstruct drops.nrrd -o drops.glb --draco --color-by mean_curvature\n"
     "  difmesh reconstruct drops.nrrd -o drops.ply --smooth constrained --curvature\n"
     "  difmesh reconstruct ball.nrrd -o ball.glb --color-by error --shape sphere\n"
     "  difmesh reconstruct tank.npy -o tank.ply --spacing 0.01,0.01,0.02 \\\n"

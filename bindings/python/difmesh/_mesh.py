@@ -32,7 +32,7 @@ class Report:
     solved_edges: int  #: vertices placed by the half-full window
     newton_steps_mean: float  #: per solved edge
     newton_steps_max: int
-    non_monotone_edges: int  #: solved edges where several positions half-fill the window
+    non_monotone_edges: int  #: solved edges along which the window's fraction falls
     enclosed_volume: float  #: signed; 0 where not closed
     closed: bool  #: no boundary edge; an empty mesh is closed
     seconds_classify: float  #: wall time: the pass over the field

@@ -258,7 +258,7 @@ typedef struct dif_report {
   int64_t solved_edges;          /* vertices placed by the half-full window */
   double newton_steps_mean;      /* per solved edge */
   int64_t newton_steps_max;
-  int64_t non_monotone_edges; /* solved edges where several positions half-fill the window */
+  int64_t non_monotone_edges; /* solved edges along which the window's fraction falls */
   double enclosed_volume;     /* signed; 0 where not closed */
   int32_t closed;             /* 1: no boundary edge; an empty mesh is closed */
   int32_t reserved;
@@ -351,8 +351,8 @@ enum {
  * sides and purity_tolerance. cells: 3 count indices, in [0, dims). normals: 3 count numbers;
  * offsets, sources: count. `normals`, `offsets` and `sources` may be NULL. The field is read only
  * near these cells; NaN there counts as 0.
- * Errors: as dif_reconstruct(). Cost: 0.1 to 0.3 microseconds per cell, 7 to 9 by ELVIRA
- * and LVIRA. Since 0.1. */
+ * Errors: as dif_reconstruct(). Cost: 0.1 to 0.3 microseconds per cell, 7 to 9 by ELVIRA,
+ * 1 to 2 by LVIRA. Since 0.1. */
 DIF_API dif_status dif_cell_planes(const dif_field* field, const dif_options* options,
                                    int64_t count, const int64_t cells[], double normals[],
                                    double offsets[], int32_t sources[]);

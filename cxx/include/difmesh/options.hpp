@@ -27,9 +27,11 @@ enum class Normals : std::uint8_t {
   height_function,
   /// The plane whose fractions in 3x3x3 cells differ least, in squares, from those there, among 27
   /// by differences of columns of 5 and myc's (after Pilliod & Puckett, J. Comput. Phys. 199 (2004)
-  /// 465). Exact for planes two cells away from open sides. Some 7 µs per cell.
+  /// 465). Exact for planes two cells away from open sides. 7 to 9 µs per cell.
   elvira,
-  lvira,  ///< the same among all planes near myc's, by Gauss-Newton steps; exact for planes. 1 µs
+  /// The same among all planes near myc's, by Gauss-Newton steps; exact for planes. 1 to 2 µs per
+  /// cell.
+  lvira,
 };
 
 /// What lies beyond a side of the domain.

@@ -31,8 +31,9 @@ struct Reconstruction {
 /// \param field cells in memory; dims must equal grid.dims
 /// \throw Error invalid_argument (field or options), invalid_grid, invalid_value (first bad cell in
 ///   the order z, y, x is named), too_large, cancelled; OutOfMemory, early where that is known
-/// Cost: one pass over the field, then O(interfacial cells). Memory beyond the output: two bits per
-/// cell and O(interfacial cells). Thread safety: concurrent calls are safe.
+/// Cost: one pass over the field, then O(interfacial cells). Memory beyond the output: one bit per
+/// cell, some bytes per row of cells, and what the interfacial cells of two slabs and of the
+/// outermost layers need. Thread safety: concurrent calls are safe.
 /// Source: E19, as docs/method.md lays out.
 [[nodiscard]] Reconstruction reconstruct(const FieldView& field, const Grid& grid,
                                          const Options& options = {});

@@ -19,7 +19,8 @@ struct Report {
   std::int64_t solved_edges = 0;         ///< vertices placed by the half-full window
   double newton_steps_mean = 0.0;        ///< steps per solved edge
   std::int64_t newton_steps_max = 0;
-  /// Solved edges where the window's fraction is not monotone.
+  /// Solved edges along which the window's fraction falls somewhere, so that more than one position
+  /// may be half full.
   std::int64_t non_monotone_edges = 0;
   bool closed = true;            ///< no boundary edge; an empty mesh is closed
   double enclosed_volume = 0.0;  ///< signed volume inside; 0 where not closed
