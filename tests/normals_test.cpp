@@ -241,3 +241,41 @@ TEST_CASE("myc is as published where candidates nearly tie and where the fractio
   CHECK(compared > 500);
   CHECK(near_ties > 300);
 }
+
+TEST_CASE("planes of cells have the same bits whether x runs through memory or not") {
+  // Kernels serve fields whose x is contiguous; the others go cell by cell.
+  const Grid grid{.dims = {37, 21, 19}, .origin = {1.0, 2.0, 3.0}, .spacing = {0.5, 1.0, 2.0}};
+  for (const test::OwnedField& field :
+       {test::blob(grid.dims), test::white_noise(grid.dims, 8), test::half_noise(grid.dims, 9)}) {
+    std::vector<double> apart(2 * field.values.size(), 0.3);
+    for (std::size_t n = 0; n < field.values.size(); ++n) {
+      apart[2 * n] = field.values[n];
+    }
+    const FieldView view(apart.data(), difmesh::ScalarType::float64, grid.dims,
+                         {2, 2 * grid.dims[0], 2 * grid.dims[0] * grid.dims[1]});
+    std::vector<Index3> all;
+    for (std::int64_t n = 0; n < grid.cell_count(); ++n) {
+      all.push_back(
+          {n % grid.dims[0], n / grid.dims[0] % grid.dims[1], n / grid.dims[0] / grid.dims[1]});
+    }
+    for (const difmesh::Normals normals :
+         {difmesh::Normals::youngs, difmesh::Normals::myc, difmesh::Normals::height_function}) {
+      Options options;
+      options.normals = normals;
+      options.sides[0] = options.sides[1] = difmesh::Side::mirror;
+      std::vector<CellPlane> together(all.size());
+      std::vector<CellPlane> alone(all.size());
+      difmesh::cell_planes(field.view(), grid, all, options, together);
+      difmesh::cell_planes(view, grid, all, options, alone);
+      std::size_t sources[5] = {};
+      for (std::size_t n = 0; n < all.size(); ++n) {
+        REQUIRE(together[n].source == alone[n].source);
+        REQUIRE(std::memcmp(&together[n].plane, &alone[n].plane, sizeof(difmesh::Plane)) == 0);
+        ++sources[static_cast<std::size_t>(alone[n].source)];
+      }
+      CHECK(sources[static_cast<std::size_t>(NormalSource::youngs)] > 0);
+      CHECK((sources[static_cast<std::size_t>(NormalSource::centred_columns)] > 0) ==
+            (normals != difmesh::Normals::youngs));
+    }
+  }
+}

@@ -11,7 +11,7 @@
 #include "difmesh/float_environment.hpp"
 #include "grid/block_field.hpp"
 #include "planes/cube_fraction.hpp"
-#include "planes/normal_stencil.hpp"
+#include "planes/plane_fitter.hpp"
 
 namespace difmesh {
 namespace {
@@ -38,27 +38,88 @@ void check_cells(const Grid& grid, std::span<const Index3> cells) {
   }
 }
 
-template <class T>
-CellPlane plane_of(const BlockField& field, const detail::NormalStencil<T>& stencil,
-                   const Index3& cell) {
-  const detail::UnitNormal unit = stencil(cell);
+// From a plane in the unit cell.
+CellPlane in_space(const Grid& grid, const Vec3& m, double a, NormalSource source) {
   CellPlane result;
-  result.source = unit.source;
-  if (unit.source == NormalSource::none) {
-    return result;
-  }
+  result.source = source;
   Vec3 normal;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    normal[axis] = unit.m[axis] / field.grid.spacing[axis];
+    normal[axis] = m[axis] / grid.spacing[axis];
   }
   const double length = std::hypot(normal[0], normal[1], normal[2]);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     result.plane.normal[axis] = normal[axis] / length;
   }
-  result.plane.offset =
-      detail::cube_offset(unit.m[0], unit.m[1], unit.m[2], field.fraction(cell)) / length;
+  result.plane.offset = a / length;
   return result;
 }
+
+// Planes of a part of the list: of most cells by the kernels, in batches.
+template <class T>
+class ListFitter {
+ public:
+  explicit ListFitter(const detail::FitterPlan<T>& plan) : plan_(plan) {}
+
+  // The result is there after finish().
+  void fit(const Index3& cell, CellPlane& plane) {
+    const BlockField& field = plan_.field;
+    const T* const centre = static_cast<const T*>(field.view.data) + field.element(cell);
+    const double fraction = detail::fraction_of(*centre);
+    if (fraction == 0.0 || fraction == 1.0 || !plan_.is_for_kernel(cell)) {
+      plane = fit_alone(cell);
+      return;
+    }
+    const int n = count_++;
+    centre_[n] = centre;
+    reach_[n] = plan_.reach(cell);
+    cell_[n] = cell;
+    plane_[n] = &plane;
+    if (count_ == detail::kBatch) {
+      finish();
+    }
+  }
+
+  void finish() {
+    if (count_ == 0) {
+      return;
+    }
+    detail::PlaneBatch batch;
+    plan_.kernel(plan_.task, {centre_, reach_, count_}, batch);
+    for (int n = 0; n < count_; ++n) {
+      const auto is_in = [n](unsigned mask) { return (mask >> n & 1) != 0; };
+      if (is_in(batch.undone)) {
+        *plane_[n] = fit_alone(cell_[n]);
+      } else if (is_in(batch.gradient_free)) {
+        *plane_[n] = {};
+      } else {
+        const NormalSource source = is_in(batch.from_heights)  ? NormalSource::height_function
+                                    : is_in(batch.from_youngs) ? NormalSource::youngs
+                                                               : NormalSource::centred_columns;
+        *plane_[n] = in_space(plan_.field.grid, {batch.m[0][n], batch.m[1][n], batch.m[2][n]},
+                              batch.a[n], source);
+      }
+    }
+    count_ = 0;
+  }
+
+ private:
+  [[nodiscard]] CellPlane fit_alone(const Index3& cell) const {
+    const detail::UnitNormal unit = plan_.stencil(cell);
+    if (unit.source == NormalSource::none) {
+      return {};
+    }
+    const double a =
+        detail::cube_offset(unit.m[0], unit.m[1], unit.m[2], plan_.field.fraction(cell));
+    return in_space(plan_.field.grid, unit.m, a, unit.source);
+  }
+
+  const detail::FitterPlan<T>& plan_;
+  int count_ = 0;
+  const T* centre_[detail::kBatch];
+  std::uint8_t reach_[detail::kBatch];
+  Index3 cell_[detail::kBatch];
+  CellPlane* plane_[detail::kBatch];
+};
 
 template <class T>
 void list_row(const BlockField& field, std::int64_t row, std::vector<Index3>& cells) {
@@ -87,13 +148,16 @@ void cell_planes(const FieldView& field, const Grid& grid, std::span<const Index
   detail::Workers workers(options.threads);
   detail::Phases phases(workers, options.progress);
   detail::with_scalar(field.type, [&](auto type) {
-    const detail::NormalStencil<decltype(type)> stencil(block, options.normals);
+    using T = decltype(type);
+    const detail::FitterPlan<T> plan(block, options.normals);
     phases.run(1.0, static_cast<std::int64_t>(cells.size()), kCellsPerPortion,
                [&](std::int64_t begin, std::int64_t end) {
+                 ListFitter<T> fitter(plan);
                  for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end);
                       ++n) {
-                   planes[n] = plane_of(block, stencil, cells[n]);
+                   fitter.fit(cells[n], planes[n]);
                  }
+                 fitter.finish();
                });
   });
   phases.finish();

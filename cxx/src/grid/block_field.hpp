@@ -2,7 +2,9 @@
 // The field as the phases see it: cells of the whole grid by global index, of which a block with
 // its ghost layers is in memory, and what stands beyond the sides of the domain.
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -79,6 +81,11 @@ struct BlockField {
   [[nodiscard]] std::int64_t element(const Index3& cell) const {
     return (cell[0] - axes[0].low) * view.strides[0] + (cell[1] - axes[1].low) * view.strides[1] +
            (cell[2] - axes[2].low) * view.strides[2];
+  }
+  /// Cells in memory between an index of an axis and the nearer end of what is there; negative beyond
+  /// the ends.
+  [[nodiscard]] std::int64_t margin(std::size_t axis, std::int64_t index) const {
+    return std::min(index - axes[axis].low, axes[axis].high - 1 - index);
   }
   /// Fraction of a cell in memory, or beyond `empty` and `full` sides; `empty` wins where both
   /// meet. \pre no index is kMissing

@@ -40,7 +40,8 @@ struct PlaneBatch {
   double a[kBatch];
   unsigned gradient_free;  ///< m and a say nothing
   unsigned from_heights;
-  unsigned undone;  ///< m and a say nothing: the cell needs the general code
+  unsigned from_youngs;  ///< unless from heights; the others are from centred columns
+  unsigned undone;       ///< m and a say nothing: the cell needs the general code
 };
 
 /// Four doubles, m and then a; see unit_plane.hpp, which is not included: what is compiled here for wide

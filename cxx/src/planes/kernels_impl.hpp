@@ -188,17 +188,28 @@ template <class T>
 
 // What does not depend on the type of the elements is kept out of line: it is compiled once.
 
-// Normals of eight cells from their 3x3x3 fractions. Returns the cells without a gradient.
-[[gnu::noinline]] unsigned estimate_normals(const Lanes (&c)[27], bool centred_columns,
-                                            Triple<Lanes>& normal) {
+// Of eight cells. Bits of the masks are cells.
+struct EstimatedNormals {
+  Triple<Lanes> m;
+  unsigned gradient_free;
+  unsigned from_youngs;
+};
+
+// Normals of eight cells from their 3x3x3 fractions.
+[[gnu::noinline]] EstimatedNormals estimate_normals(const Lanes (&c)[27], bool centred_columns) {
   constexpr double kAllThere[3][3] = {{1.0, 1.0, 1.0}, {1.0, 1.0, 1.0}, {1.0, 1.0, 1.0}};
-  normal = youngs(c);
-  const Lanes size = norm1(normal);
-  normal = scaled(normal, 1.0 / size);
+  EstimatedNormals normals;
+  const Triple<Lanes> gradient = youngs(c);
+  const Lanes size = norm1(gradient);
+  normals.gradient_free = bits_of(size < broadcast(kTie));
+  normals.m = scaled(gradient, 1.0 / size);
+  normals.from_youngs = (1U << kLanes) - 1U;
   if (centred_columns) {
-    normal = mixed_normal(c, kAllThere, normal).m;
+    const MixedNormal<Lanes> mixed = mixed_normal(c, kAllThere, normals.m);
+    normals.m = mixed.m;
+    normals.from_youngs = bits_of(mixed.is_youngs);
   }
-  return bits_of(size < broadcast(kTie));
+  return normals;
 }
 
 [[gnu::noinline]] void take_all_heights(const HeightLanes& heights, int lanes, PlaneBatch& planes) {
@@ -236,15 +247,17 @@ void fit_planes(const PlaneTask<T>& task, const CellBatch<T>& cells, PlaneBatch&
   alignas(64) double fraction[kBatch];
   Pointing pointing{};
   planes.gradient_free = 0;
+  planes.from_youngs = 0;
   for (int first = 0; first < lanes; first += kLanes) {
     Lanes c[27];
     gather_neighbours(task, cells, first, c);
     store(c[13], fraction + first);
-    Triple<Lanes> normal;
-    planes.gradient_free |= estimate_normals(c, task.centred_columns, normal) << first;
-    pointing.add(normal, first);
+    const EstimatedNormals normals = estimate_normals(c, task.centred_columns);
+    planes.gradient_free |= normals.gradient_free << first;
+    planes.from_youngs |= normals.from_youngs << first;
+    pointing.add(normals.m, first);
     for (int t = 0; t < 3; ++t) {
-      store(normal.v[t], planes.m[t] + first);
+      store(normals.m.v[t], planes.m[t] + first);
     }
   }
   planes.gradient_free &= (1U << cells.count) - 1U;

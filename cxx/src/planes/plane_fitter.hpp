@@ -66,6 +66,9 @@ T most_empty(double purity_tolerance) {
   }
 }
 
+/// Cells on each side of the middle one in a column of heights.
+inline constexpr std::int64_t kColumnReach = 4;
+
 /// What all fitters of one field share.
 template <class T>
 struct FitterPlan {
@@ -85,6 +88,21 @@ struct FitterPlan {
              least_full<T>(of.purity_tolerance),
              most_empty<T>(of.purity_tolerance)},
         kernel(kernels().fit_planes(T{})) {}
+
+  /// True if the kernel may be asked about a cell: its neighbours are in memory, and rows can be read
+  /// four abreast.
+  [[nodiscard]] bool is_for_kernel(const Index3& cell) const {
+    return has_kernel && field.margin(0, cell[0]) >= 1 && cell[0] + 2 < field.axes[0].high &&
+           field.margin(1, cell[1]) >= 1 && field.margin(2, cell[2]) >= 1;
+  }
+  /// Of CellBatch.
+  [[nodiscard]] std::uint8_t reach(const Index3& cell) const {
+    unsigned bits = cell[0] + kAbreast - 2 < field.axes[0].high ? kEightAbreast : 0U;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      bits |= field.margin(axis, cell[axis]) >= kColumnReach ? 1U << axis : 0U;
+    }
+    return static_cast<std::uint8_t>(bits);
+  }
 };
 
 /// Fits planes to cells, in batches where no side of the domain is near. One per thread.
@@ -99,9 +117,9 @@ class PlaneFitter {
     const Index3 before{field.block.offset[0] - 1, j - 1 + field.block.offset[1],
                         k - 1 + field.block.offset[2]};
     const bool inside_row =
-        plan_.has_kernel && margin(1, before[1]) >= 1 && margin(2, before[2]) >= 1;
-    const auto across = static_cast<unsigned>((margin(1, before[1]) >= kReach ? 2 : 0) |
-                                              (margin(2, before[2]) >= kReach ? 4 : 0));
+        plan_.has_kernel && field.margin(1, before[1]) >= 1 && field.margin(2, before[2]) >= 1;
+    const auto across = static_cast<unsigned>((field.margin(1, before[1]) >= kColumnReach ? 2 : 0) |
+                                              (field.margin(2, before[2]) >= kColumnReach ? 4 : 0));
     const T* row = static_cast<const T*>(field.view.data);
     if (inside_row) {
       row += field.element({field.axes[0].low, before[1], before[2]});
@@ -111,13 +129,13 @@ class PlaneFitter {
     for (std::int64_t w = 0; w < nodes_.words(); ++w) {
       for (std::uint64_t left = words[w]; left != 0; left &= left - 1, ++plane) {
         const std::int64_t i = 64 * w + std::countr_zero(left) + before[0];
-        const std::int64_t from_side = margin(0, i);
+        const std::int64_t from_side = field.margin(0, i);
         // Rows are read four abreast.
         if (!inside_row || from_side < 1 || i + 2 >= field.axes[0].high) {
           fit_alone({i, before[1], before[2]}, *plane);
           continue;
         }
-        const unsigned reach = (from_side >= kReach ? 1U : 0U) | across |
+        const unsigned reach = (from_side >= kColumnReach ? 1U : 0U) | across |
                                (i + kAbreast - 2 < field.axes[0].high ? kEightAbreast : 0U);
         const T* const centre = row + (i - field.axes[0].low);
         if (last_line == nullptr || centre - last_line >= kLine) {
@@ -143,7 +161,6 @@ class PlaneFitter {
   }
 
  private:
-  static constexpr std::int64_t kReach = 4;
   // Elements that come into the cache together.
   static constexpr std::int64_t kLine = 64 / sizeof(T);
   // Cells wait until what they read has arrived.
@@ -194,8 +211,8 @@ class PlaneFitter {
   void read_ahead(const T* centre, unsigned reach, bool along_y, bool along_z) const {
     const std::int64_t y = plan_.task.strides[1];
     const std::int64_t z = plan_.task.strides[2];
-    const std::int64_t y_reach = along_y && (reach & 2U) != 0 ? kReach : 1;
-    const std::int64_t z_reach = along_z && (reach & 4U) != 0 ? kReach : 1;
+    const std::int64_t y_reach = along_y && (reach & 2U) != 0 ? kColumnReach : 1;
+    const std::int64_t z_reach = along_z && (reach & 4U) != 0 ? kColumnReach : 1;
     hint_read(centre);
     hint_read(centre - y);
     hint_read(centre - z);
@@ -248,12 +265,6 @@ class PlaneFitter {
         plane = gradient_free(fraction_of(*waiting_.centre[first + n]));
       }
     }
-  }
-
-  // Cells in memory between this one and the nearer end of the axis; negative beyond the ends.
-  [[nodiscard]] std::int64_t margin(std::size_t axis, std::int64_t index) const {
-    const AxisCells& cells = plan_.field.axes[axis];
-    return std::min(index - cells.low, cells.high - 1 - index);
   }
 
   UnitPlane gradient_free(double fraction) {
