@@ -3,9 +3,11 @@
 #include <algorithm>
 
 #include "cells/classify.hpp"
+#include "placement/placement.hpp"
 #include "planes/plane_fitter.hpp"
 #include "surface/block_cells.hpp"
 #include "surface/edge_ends.hpp"
+#include "surface/phase.hpp"
 
 namespace difmesh::detail {
 namespace {
@@ -160,37 +162,39 @@ PlaneTable make_planes(const BlockField& field, const NodeBits& nodes,
   PlaneTable table;
   with_scalar(field.view.type, [&](auto type) {
     using T = decltype(type);
-    const Flagger<T> flagger(field, nodes, row_ends, options.placement == Placement::plic);
-    phases.run(0.05, nodes.rows(), grain, [&](std::int64_t begin, std::int64_t end) {
-      std::vector<std::uint64_t> words(static_cast<std::size_t>(nodes.words()));
-      std::int64_t j = begin % row_length;
-      std::int64_t k = begin / row_length;
-      for (std::int64_t row = begin; row < end; ++row) {
-        row_counts[static_cast<std::size_t>(row)] = flagger.flag_row(j, k, words.data());
-        if (++j == row_length) {
-          j = 0;
-          ++k;
-        }
-      }
-    });
+    const Flagger<T> flagger(field, nodes, row_ends, placement_part(options.placement).by_planes);
+    phases.run(0.5 * kPlanes.weight, nodes.rows(), grain,
+               [&](std::int64_t begin, std::int64_t end) {
+                 std::vector<std::uint64_t> words(static_cast<std::size_t>(nodes.words()));
+                 std::int64_t j = begin % row_length;
+                 std::int64_t k = begin / row_length;
+                 for (std::int64_t row = begin; row < end; ++row) {
+                   row_counts[static_cast<std::size_t>(row)] = flagger.flag_row(j, k, words.data());
+                   if (++j == row_length) {
+                     j = 0;
+                     ++k;
+                   }
+                 }
+               });
     // Flags are found once more where there are some, rather than kept for all rows.
     table = PlaneTable(nodes, row_counts);
     if (table.size() == 0) {
       return;
     }
     const FitterPlan<T> plan(field, options.normals);
-    phases.run(0.05, nodes.rows(), grain, [&](std::int64_t begin, std::int64_t end) {
-      PlaneFitter<T> fitter(plan, nodes);
-      for (std::int64_t row = begin; row < end; ++row) {
-        if (!table.is_empty(row)) {
-          const std::int64_t j = row % row_length;
-          const std::int64_t k = row / row_length;
-          flagger.flag_row(j, k, table.flags(row));
-          fitter.fit_row(j, k, table.flags(row), table.planes(row));
-        }
-      }
-      portions[static_cast<std::size_t>(begin / grain)] = fitter.finish();
-    });
+    phases.run(0.5 * kPlanes.weight, nodes.rows(), grain,
+               [&](std::int64_t begin, std::int64_t end) {
+                 PlaneFitter<T> fitter(plan, nodes);
+                 for (std::int64_t row = begin; row < end; ++row) {
+                   if (!table.is_empty(row)) {
+                     const std::int64_t j = row % row_length;
+                     const std::int64_t k = row / row_length;
+                     flagger.flag_row(j, k, table.flags(row));
+                     fitter.fit_row(j, k, table.flags(row), table.planes(row));
+                   }
+                 }
+                 portions[static_cast<std::size_t>(begin / grain)] = fitter.finish();
+               });
   });
   report.planes += table.size();
   for (const SourceCounts& counts : portions) {

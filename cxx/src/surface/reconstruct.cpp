@@ -12,7 +12,9 @@
 #include "difmesh/float_environment.hpp"
 #include "difmesh/out_of_memory.hpp"
 #include "grid/block_field.hpp"
+#include "placement/placement.hpp"
 #include "surface/dual_grid.hpp"
+#include "surface/phase.hpp"
 #include "surface/plane_table.hpp"
 #include "surface/triangles.hpp"
 #include "surface/vertices.hpp"
@@ -42,15 +44,15 @@ Reconstruction run_phases(const BlockField& field, const Options& options, const
   detail::Workers workers(options.threads);
   Phases phases(workers, options.progress);
 
-  const bool with_planes = options.placement == Placement::plic;
+  const bool with_planes = detail::placement_part(options.placement).by_planes;
   detail::LayerPlanes layer_planes(field, with_planes);
-  now = "the inside bits";
-  detail::ClassifiedNodes classified =
-      detail::classify(field, {options.overshoot_bound, layer_planes}, 0.1, phases, report);
+  now = detail::kInsideBits.makes;
+  detail::ClassifiedNodes classified = detail::classify(
+      field, {options.overshoot_bound, layer_planes}, detail::kInsideBits.weight, phases, report);
   DualGrid grid(field, std::move(classified.nodes));
   report.seconds.classify = watch.lap();
 
-  now = "the planes";
+  now = detail::kPlanes.makes;
   if (with_planes || options.vertex_normals) {
     grid.set_planes(
         detail::make_planes(field, grid.nodes(), classified.row_ends, options, phases, report),
@@ -58,7 +60,7 @@ Reconstruction run_phases(const BlockField& field, const Options& options, const
   }
   report.seconds.normals = watch.lap();
 
-  now = "the counts";
+  now = detail::kCounts.makes;
   const detail::MeshCounts counts = detail::count_mesh(grid, phases);
   const std::int64_t vertices = counts.vertex_start.back();
   if (vertices > std::numeric_limits<std::uint32_t>::max()) {
@@ -67,12 +69,13 @@ Reconstruction run_phases(const BlockField& field, const Options& options, const
   }
   report.seconds.count = watch.lap();
 
-  now = "the vertices";
+  now = detail::kVertices.makes;
   detail::place_vertices(grid, options, counts.vertex_start, phases, mesh, report);
   watch.lap();  // of planes and of vertices, which take turns: they are in the report
 
-  now = "the triangles";
+  now = detail::kTriangles.makes;
   detail::connect(grid, counts, phases, mesh);
+  now = detail::kVolume.makes;
   if (report.closed) {
     report.enclosed_volume = detail::enclosed_volume(mesh, middle_level(field), phases);
   }

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "surface/case_table.hpp"
+#include "surface/phase.hpp"
 
 namespace difmesh::detail {
 namespace {
@@ -330,7 +331,7 @@ MeshCounts count_mesh(const DualGrid& grid, Phases& phases) {
   MeshCounts counts;
   counts.vertex_start.resize(static_cast<std::size_t>(nodes.rows()) + 1);
   counts.triangle_start.resize(static_cast<std::size_t>((nodes.rows() + grain - 1) / grain) + 1);
-  phases.run(0.07, nodes.rows(), grain, [&](std::int64_t begin, std::int64_t end) {
+  phases.run(kCounts.weight, nodes.rows(), grain, [&](std::int64_t begin, std::int64_t end) {
     std::size_t triangles = 0;
     for (std::int64_t row = begin; row < end; ++row) {
       const std::int64_t j = row % row_length;
@@ -375,7 +376,7 @@ void connect(const DualGrid& grid, const MeshCounts& counts, Phases& phases, Mes
   const std::int64_t grain = rows_per_portion(nodes);
   mesh.triangles.resize(static_cast<std::size_t>(counts.triangle_start.back()));
   hint_large_pages(mesh.triangles);
-  phases.run(0.1, nodes.rows(), grain, [&](std::int64_t begin, std::int64_t end) {
+  phases.run(kTriangles.weight, nodes.rows(), grain, [&](std::int64_t begin, std::int64_t end) {
     const auto portion = static_cast<std::size_t>(begin / grain);
     if (counts.triangle_start[portion] == counts.triangle_start[portion + 1]) {
       return;
@@ -413,7 +414,7 @@ double enclosed_volume(const Mesh& mesh, double level, Phases& phases) {
   constexpr std::int64_t kPortion = 8192;
   const auto count = static_cast<std::int64_t>(mesh.triangles.size());
   std::vector<double> portions(static_cast<std::size_t>((count + kPortion - 1) / kPortion));
-  phases.run(0.03, count, kPortion, [&](std::int64_t begin, std::int64_t end) {
+  phases.run(kVolume.weight, count, kPortion, [&](std::int64_t begin, std::int64_t end) {
     double sum = 0.0;
     for (std::int64_t n = begin; n < end; ++n) {
       const Triangle& triangle = mesh.triangles[static_cast<std::size_t>(n)];

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "placement/manson.hpp"
 #include "placement/placement.hpp"
 #include "planes/unit_plane.hpp"
 #include "planes/window.hpp"
@@ -49,7 +50,7 @@ struct DualEdge {
 class VertexPlacer {
  public:
   VertexPlacer(const DualGrid& grid, const Options& options)
-      : grid_(grid), options_(options), with_planes_(options.placement == Placement::plic) {
+      : grid_(grid), options_(options), placement_(placement_part(options.placement)) {
     constexpr double kFar = std::numeric_limits<double>::infinity();
     for (std::size_t axis = 0; axis < 3; ++axis) {
       first_index_[axis] = static_cast<double>(grid.field().block.offset[axis] - 1);
@@ -63,7 +64,7 @@ class VertexPlacer {
   }
 
   [[nodiscard]] const DualGrid& grid() const { return grid_; }
-  [[nodiscard]] const Options& options() const { return options_; }
+  [[nodiscard]] const PlacementPart& placement() const { return placement_; }
 
   [[nodiscard]] double cleared(double share) const {
     return within(share, options_.clearance, 1.0 - options_.clearance);
@@ -71,7 +72,7 @@ class VertexPlacer {
 
   // The vertex's share of the way from the lower node to the upper one.
   double place(const DualEdge& edge, EdgeCounts& counts) const {
-    return cleared(with_planes_ ? place_at_side(edge, counts) : place_by_fractions(edge));
+    return cleared(placement_.by_planes ? place_at_side(edge, counts) : place_by_fractions(edge));
   }
 
   [[nodiscard]] Vec3 position(const DualEdge& edge, double share) const {
@@ -116,13 +117,9 @@ class VertexPlacer {
 
   // From the fractions of the two cells. \pre the placement is not by planes
   [[nodiscard]] double share_of(bool upper_inside, double lower, double upper) const {
-    if (options_.placement == Placement::midpoint) {
-      return 0.5;
-    }
     const double outer = upper_inside ? lower : upper;
     const double inner = upper_inside ? upper : lower;
-    const double mu = options_.placement == Placement::linear ? linear_position(outer, inner)
-                                                              : manson_position(outer, inner);
+    const double mu = placement_.position(outer, inner);
     return upper_inside ? mu : 1.0 - mu;
   }
 
@@ -295,7 +292,7 @@ class VertexPlacer {
 
   const DualGrid& grid_;
   const Options& options_;
-  bool with_planes_;
+  const PlacementPart& placement_;
   Vec3 first_index_{};                         // of local index 0 in the whole grid
   std::array<std::vector<double>, 3> after_;   // the next number above each node's coordinate
   std::array<std::vector<double>, 3> before_;  // and below

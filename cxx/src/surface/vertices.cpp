@@ -8,6 +8,7 @@
 #include "base/stopwatch.hpp"
 #include "planes/plane_row.hpp"
 #include "planes/unit_plane.hpp"
+#include "surface/phase.hpp"
 #include "surface/plane_slabs.hpp"
 #include "surface/vertex_placer.hpp"
 #include "surface/window_queue.hpp"
@@ -39,7 +40,7 @@ class RowPlacer {
   RowPlacer(const VertexPlacer& placer, Mesh& mesh)
       : placer_(placer),
         grid_(placer.grid()),
-        solves_windows_(placer.options().placement == Placement::plic),
+        solves_windows_(placer.placement().by_planes),
         writer_(placer, mesh),
         queue_(placer, writer_, counts_) {}
 
@@ -360,7 +361,7 @@ void place_vertices(const DualGrid& grid, const Options& options,
   hint_large_pages(mesh.normals);
   const NodeBits& nodes = grid.nodes();
   const VertexPlacer placer(grid, options);
-  const bool with_planes = options.placement == Placement::plic || options.vertex_normals;
+  const bool with_planes = placer.placement().by_planes || options.vertex_normals;
   const std::vector<RowTile> tiles =
       with_planes ? make_tiles(nodes, row_start, phases) : std::vector<RowTile>{};
   const std::int64_t count = with_planes ? static_cast<std::int64_t>(tiles.size()) : nodes.rows();
@@ -370,7 +371,7 @@ void place_vertices(const DualGrid& grid, const Options& options,
   with_scalar(grid.field().view.type, [&](auto type) {
     using T = decltype(type);
     const FitterPlan<T> plan(grid.field(), options.normals);
-    phases.run(0.6, count, grain, [&](std::int64_t begin, std::int64_t end) {
+    phases.run(kVertices.weight, count, grain, [&](std::int64_t begin, std::int64_t end) {
       portions[static_cast<std::size_t>(begin / grain)] =
           with_planes
               ? place_tile<T>(placer, plan, row_start, tiles[static_cast<std::size_t>(begin)], mesh)
