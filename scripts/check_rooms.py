@@ -30,7 +30,7 @@ ROOMS = {
 PUBLIC = {
     "base": ["array", "error", "float_environment", "out_of_memory", "printable", "progress", "vec3",
              "version"],
-    "grid": ["block", "field_view", "grid", "options", "report"],
+    "grid": ["block", "edge_id", "field_view", "grid", "options", "report"],
     "planes": ["plane"],
     "cells": ["cell_planes"],
     "mesh": ["curvature", "measure", "mesh", "mesh_portion", "smoothing"],

@@ -5,6 +5,7 @@
 #include "difmesh/cell_planes.hpp"
 #include "difmesh/constrained_smoothing.hpp"
 #include "difmesh/curvature.hpp"
+#include "difmesh/edge_id.hpp"
 #include "difmesh/error.hpp"
 #include "difmesh/field_view.hpp"
 #include "difmesh/float_environment.hpp"

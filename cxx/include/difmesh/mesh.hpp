@@ -27,8 +27,8 @@ struct Mesh {
   Array<Triangle> triangles;  ///< three indices into positions each
   Array<Vec3> normals;        ///< empty, or one unit vector per vertex, out of the material
   /// Empty, or one per vertex: the name of its dual edge, strictly ascending over the vertices.
-  /// id = 3 (((k+1)(ny+2) + (j+1))(nx+2) + (i+1)) + axis, where (i,j,k) is the edge's lower dual
-  /// node in the indices of the whole grid (-1 and n are the nodes beyond or on the domain faces).
+  /// edge_id.hpp makes these names and takes them apart: they hold the edge's lower node and axis, in
+  /// the indices of the whole grid.
   Array<std::uint64_t> edge_ids;
   std::vector<VertexScalar> scalars = {};  ///< of different names
 };

@@ -1,10 +1,12 @@
 #include "difmesh/weld.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "difmesh/edge_id.hpp"
 #include "difmesh/error.hpp"
 #include "difmesh/float_environment.hpp"
 
@@ -15,20 +17,8 @@ namespace {
   throw Error(ErrorCode::invalid_argument, "weld: mesh " + std::to_string(mesh) + " " + what);
 }
 
-struct IdRange {
-  std::uint64_t row;    // ids from one row of nodes to the next
-  std::uint64_t layer;  // and from one layer to the next
-  std::uint64_t end;
-};
-
-IdRange id_range(const Grid& grid) {
-  const auto nodes = [](std::int64_t dim) { return static_cast<std::uint64_t>(dim) + 2; };
-  const std::uint64_t row = 3 * nodes(grid.dims[0]);
-  const std::uint64_t layer = row * nodes(grid.dims[1]);
-  return {row, layer, layer * nodes(grid.dims[2])};
-}
-
-void check(std::span<const Mesh* const> meshes, const IdRange& ids) {
+void check(std::span<const Mesh* const> meshes, const Index3& dims) {
+  const std::uint64_t end = edge_id_end(dims);
   std::size_t first = meshes.size();  // with vertices
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     if (meshes[m] == nullptr) {
@@ -48,7 +38,7 @@ void check(std::span<const Mesh* const> meshes, const IdRange& ids) {
       }
     }
     for (const std::uint64_t id : mesh.edge_ids) {
-      if (id >= ids.end) {
+      if (id >= end) {
         fail(m, "has an edge id outside the grid: " + std::to_string(id));
       }
     }
@@ -60,18 +50,17 @@ void check(std::span<const Mesh* const> meshes, const IdRange& ids) {
   }
 }
 
-// The lower node of the dual cell that a triangle lies in: the low corner of the box around its
-// edges. No triangle is flat on a face of its cell, so the box is the cell.
-std::uint64_t cell_of(const std::array<std::uint64_t, 3>& ids, const IdRange& range) {
-  std::uint64_t i = std::numeric_limits<std::uint64_t>::max();
-  std::uint64_t j = i;
-  std::uint64_t k = i;
-  for (const std::uint64_t id : ids) {
-    i = std::min(i, id % range.row / 3);
-    j = std::min(j, id % range.layer / range.row);
-    k = std::min(k, id / range.layer);
+// The lower node of the dual cell that a triangle lies in, as the id of its edge in x: the low corner
+// of the box around its edges. No triangle is flat on a face of its cell, so the box is the cell.
+std::uint64_t cell_of(const std::array<std::uint64_t, 3>& ids, const Index3& dims) {
+  Index3 low = edge_of(dims, ids[0]).lower;
+  for (const std::uint64_t id : {ids[1], ids[2]}) {
+    const Index3 lower = edge_of(dims, id).lower;
+    for (std::size_t t = 0; t < 3; ++t) {
+      low[t] = std::min(low[t], lower[t]);
+    }
   }
-  return k * range.layer + j * range.row + 3 * i;
+  return edge_id(dims, {low, 0});
 }
 
 struct PlacedTriangle {
@@ -81,7 +70,7 @@ struct PlacedTriangle {
 };
 
 // Each dual cell is of one block alone. \pre sorted by cell
-void check_disjoint(const std::vector<PlacedTriangle>& triangles, const IdRange& range) {
+void check_disjoint(const std::vector<PlacedTriangle>& triangles, const Index3& dims) {
   const auto shared = std::adjacent_find(triangles.begin(), triangles.end(),
                                          [](const PlacedTriangle& a, const PlacedTriangle& b) {
                                            return a.cell == b.cell && a.mesh != b.mesh;
@@ -89,13 +78,11 @@ void check_disjoint(const std::vector<PlacedTriangle>& triangles, const IdRange&
   if (shared == triangles.end()) {
     return;
   }
-  const auto index = [](std::uint64_t node) { return std::to_string(std::int64_t(node) - 1); };
-  const std::uint64_t cell = shared->cell;
+  const Index3 low = edge_of(dims, shared->cell).lower;
   fail(std::next(shared)->mesh, "has triangles between the same cells as mesh " +
                                     std::to_string(shared->mesh) + ", those from (" +
-                                    index(cell % range.row / 3) + ", " +
-                                    index(cell % range.layer / range.row) + ", " +
-                                    index(cell / range.layer) + ") on; blocks must be disjoint");
+                                    std::to_string(low[0]) + ", " + std::to_string(low[1]) + ", " +
+                                    std::to_string(low[2]) + ") on; blocks must be disjoint");
 }
 
 }  // namespace
@@ -112,8 +99,7 @@ Mesh weld(std::span<const Mesh> meshes, const Grid& grid) {
 Mesh weld_pointers(std::span<const Mesh* const> meshes, const Grid& grid) {
   const DefaultFloatEnvironment environment;
   validate(grid);
-  const IdRange range = id_range(grid);
-  check(meshes, range);
+  check(meshes, grid.dims);
 
   Mesh result;
   for (const Mesh* mesh : meshes) {
@@ -150,7 +136,7 @@ Mesh weld_pointers(std::span<const Mesh* const> meshes, const Grid& grid) {
     for (const Triangle& t : mesh.triangles) {
       const std::array<std::uint64_t, 3> ids{mesh.edge_ids[t[0]], mesh.edge_ids[t[1]],
                                              mesh.edge_ids[t[2]]};
-      triangles.push_back({cell_of(ids, range),
+      triangles.push_back({cell_of(ids, grid.dims),
                            {number[t[0]], number[t[1]], number[t[2]]},
                            static_cast<std::uint32_t>(part)});
     }
@@ -158,7 +144,7 @@ Mesh weld_pointers(std::span<const Mesh* const> meshes, const Grid& grid) {
   std::stable_sort(
       triangles.begin(), triangles.end(),
       [](const PlacedTriangle& a, const PlacedTriangle& b) { return a.cell < b.cell; });
-  check_disjoint(triangles, range);
+  check_disjoint(triangles, grid.dims);
   result.triangles.resize(triangles.size());
   std::transform(triangles.begin(), triangles.end(), result.triangles.begin(),
                  [](const PlacedTriangle& t) { return t.corners; });

@@ -4,23 +4,13 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "difmesh/edge_id.hpp"
 #include "difmesh/mesh.hpp"
 #include "planes/kernels.hpp"
 #include "planes/unit_plane.hpp"
 #include "surface/vertex_placer.hpp"
 
 namespace difmesh::detail {
-
-/// Mesh::edge_ids.
-[[nodiscard]] inline std::uint64_t edge_id(const BlockField& field, const Index3& node,
-                                           std::size_t axis) {
-  std::uint64_t number = 0;
-  for (std::size_t t = 3; t-- > 0;) {
-    number = number * static_cast<std::uint64_t>(field.grid.dims[t] + 2) +
-             static_cast<std::uint64_t>(node[t] + field.block.offset[t]);
-  }
-  return 3 * number + axis;
-}
 
 /// Where vertices go.
 class VertexWriter {
@@ -35,7 +25,11 @@ class VertexWriter {
              const Vec3& position) const {
     positions_[number] = position;
     if (edge_ids_ != nullptr) {
-      edge_ids_[number] = edge_id(field_, lower, axis);
+      const Index3& offset = field_.block.offset;
+      edge_ids_[number] =
+          edge_id(field_.grid.dims,
+                  {{lower[0] + offset[0] - 1, lower[1] + offset[1] - 1, lower[2] + offset[2] - 1},
+                   static_cast<int>(axis)});
     }
   }
   [[nodiscard]] bool with_normals() const { return normals_ != nullptr; }

@@ -1,0 +1,116 @@
+#include "difmesh/edge_id.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "difmesh/reconstruct.hpp"
+#include "support/fields.hpp"
+
+namespace {
+
+using difmesh::Block;
+using difmesh::DualEdgeName;
+using difmesh::Index3;
+using difmesh::Side;
+namespace test = difmesh::test;
+
+// Blocks that cover a grid, cut at these cells of each axis.
+std::vector<Block> blocks_of(const Index3& dims, const std::vector<std::int64_t> (&cuts)[3]) {
+  std::vector<Block> blocks;
+  for (std::size_t k = 0; k <= cuts[2].size(); ++k) {
+    for (std::size_t j = 0; j <= cuts[1].size(); ++j) {
+      for (std::size_t i = 0; i <= cuts[0].size(); ++i) {
+        const std::size_t part[3] = {i, j, k};
+        Block block;
+        for (std::size_t t = 0; t < 3; ++t) {
+          block.offset[t] = part[t] == 0 ? 0 : cuts[t][part[t] - 1];
+          const std::int64_t end = part[t] == cuts[t].size() ? dims[t] : cuts[t][part[t]];
+          block.dims[t] = end - block.offset[t];
+        }
+        blocks.push_back(block);
+      }
+    }
+  }
+  return blocks;
+}
+
+}  // namespace
+
+TEST_CASE("edge ids: all edges of a grid have different ones that ascend and come back") {
+  const Index3 dims{3, 1, 2};
+  std::uint64_t before = 0;
+  bool is_first = true;
+  for (std::int64_t k = -1; k <= dims[2]; ++k) {
+    for (std::int64_t j = -1; j <= dims[1]; ++j) {
+      for (std::int64_t i = -1; i <= dims[0]; ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+          const DualEdgeName edge{{i, j, k}, axis};
+          const std::uint64_t id = difmesh::edge_id(dims, edge);
+          CHECK((is_first || id == before + 1));
+          CHECK(id < difmesh::edge_id_end(dims));
+          CHECK((difmesh::edge_of(dims, id) == edge));
+          before = id;
+          is_first = false;
+        }
+      }
+    }
+  }
+  CHECK(before + 1 == difmesh::edge_id_end(dims));
+}
+
+TEST_CASE("edge ids: the largest grids have room in 64 bits") {
+  // validate() takes 2^20 nodes each way, and 2^31 - 3 cells along one axis.
+  for (const Index3& dims : {Index3{(1 << 20) - 2, (1 << 20) - 2, (1 << 20) - 2},
+                             Index3{2147483645, 1, 1}, Index3{1, 1, 2147483645}}) {
+    const DualEdgeName last{{dims[0], dims[1], dims[2]}, 2};
+    CHECK((difmesh::edge_of(dims, difmesh::edge_id(dims, last)) == last));
+    CHECK(difmesh::edge_id(dims, last) + 1 == difmesh::edge_id_end(dims));
+    CHECK(difmesh::edge_id_end(dims) < std::uint64_t{1} << 63);
+  }
+}
+
+TEST_CASE("edge ids: each vertex of blocks is owned by one of those that have it") {
+  const test::OwnedField field = test::white_noise({7, 6, 5}, 21);
+  const difmesh::Grid grid{.dims = field.dims};
+  for (const Side side : {Side::open, Side::mirror, Side::empty, Side::periodic}) {
+    difmesh::Options options;
+    options.sides.fill(side);
+    options.edge_ids = true;
+    const auto whole = difmesh::reconstruct(field.view(), grid, options).mesh;
+    std::map<std::uint64_t, int> owners;
+    for (Block block : blocks_of(field.dims, {{2, 3}, {4}, {1}})) {
+      // All of the field stands by as ghosts; on periodic sides what lies beyond it is there twice.
+      std::vector<double> values;
+      Index3 size;
+      for (std::size_t t = 0; t < 3; ++t) {
+        const std::int64_t beyond = side == Side::periodic ? difmesh::kGhostLayers : 0;
+        block.ghost_low[t] = block.offset[t] + beyond;
+        block.ghost_high[t] = field.dims[t] - block.offset[t] - block.dims[t] + beyond;
+        size[t] = field.dims[t] + 2 * beyond;
+      }
+      test::OwnedField source = field;
+      for (std::int64_t n = 0; n < size[0] * size[1] * size[2]; ++n) {
+        Index3 at{n % size[0], n / size[0] % size[1], n / size[0] / size[1]};
+        for (std::size_t t = 0; t < 3; ++t) {
+          const std::int64_t shift = (size[t] - field.dims[t]) / 2;
+          at[t] = (at[t] - shift + 10 * field.dims[t]) % field.dims[t];
+        }
+        values.push_back(source.at(at[0], at[1], at[2]));
+      }
+      const auto view = difmesh::FieldView::x_fastest(values.data(), size);
+      const auto part = difmesh::reconstruct_block(view, block, grid, options).mesh;
+      for (const std::uint64_t id : part.edge_ids) {
+        owners[id] += difmesh::owns(block, field.dims, difmesh::edge_of(field.dims, id)) ? 1 : 0;
+      }
+    }
+    CHECK(owners.size() == whole.edge_ids.size());
+    for (const std::uint64_t id : whole.edge_ids) {
+      REQUIRE(owners[id] == 1);
+    }
+  }
+}
