@@ -89,7 +89,7 @@ def cell_planes(
 ) -> Planes:
     """Normals and planes of some cells, given as integers (n, 3): i, j, k in x, y, z.
 
-    The field is read only near these cells; NaN there counts as 0. Results have the shapes (n, 3),
+    The field is read only near these cells; NaN there count as some fraction. Results have the shapes (n, 3),
     (n,) and (n,). Other arguments and exceptions as for reconstruct().
     """
     given = np.asarray(cells)

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "difmesh/edge_id.hpp"
@@ -69,6 +72,40 @@ struct PlacedTriangle {
   std::uint32_t mesh;
 };
 
+// Sorts a list of parts, those between `ends` that follow each other. Parts that are sorted, as those of
+// reconstruct_block() are, are merged only. Stable.
+template <class List, class Less>
+void merge_parts(List& list, std::vector<std::size_t> ends, const Less& less) {
+  const auto at = [&](std::size_t n) { return list.begin() + static_cast<std::ptrdiff_t>(n); };
+  for (std::size_t n = 1; n < ends.size(); ++n) {
+    if (!std::is_sorted(at(ends[n - 1]), at(ends[n]), less)) {
+      std::stable_sort(at(ends[n - 1]), at(ends[n]), less);
+    }
+  }
+  while (ends.size() > 2) {
+    std::vector<std::size_t> merged{0};
+    for (std::size_t n = 1; n < ends.size(); n += 2) {
+      if (n + 1 < ends.size()) {
+        std::inplace_merge(at(ends[n - 1]), at(ends[n]), at(ends[n + 1]), less);
+      }
+      merged.push_back(ends[std::min(n + 1, ends.size() - 1)]);
+    }
+    ends = std::move(merged);
+  }
+}
+
+// Where an id stands among the ascending ones; near `from` if the last was there.
+using Ids = Array<std::uint64_t>;
+Ids::const_iterator find_from(const Ids& ids, Ids::const_iterator from, std::uint64_t id) {
+  constexpr int kNear = 16;
+  for (int n = 0; n < kNear && from != ids.end() && *from <= id; ++n, ++from) {
+    if (*from == id) {
+      return from;
+    }
+  }
+  return std::lower_bound(ids.begin(), ids.end(), id);
+}
+
 // Each dual cell is of one block alone. \pre sorted by cell
 void check_disjoint(const std::vector<PlacedTriangle>& triangles, const Index3& dims) {
   const auto shared = std::adjacent_find(triangles.begin(), triangles.end(),
@@ -102,10 +139,12 @@ Mesh weld_pointers(std::span<const Mesh* const> meshes, const Grid& grid) {
   check(meshes, grid.dims);
 
   Mesh result;
+  std::vector<std::size_t> ends{0};
   for (const Mesh* mesh : meshes) {
     result.edge_ids.insert(result.edge_ids.end(), mesh->edge_ids.begin(), mesh->edge_ids.end());
+    ends.push_back(result.edge_ids.size());
   }
-  std::sort(result.edge_ids.begin(), result.edge_ids.end());
+  merge_parts(result.edge_ids, ends, std::less<>());
   result.edge_ids.erase(std::unique(result.edge_ids.begin(), result.edge_ids.end()),
                         result.edge_ids.end());
   if (result.edge_ids.size() > std::numeric_limits<std::uint32_t>::max()) {
@@ -116,6 +155,7 @@ Mesh weld_pointers(std::span<const Mesh* const> meshes, const Grid& grid) {
 
   result.positions.resize(result.edge_ids.size());
   std::vector<PlacedTriangle> triangles;
+  std::vector<std::size_t> triangle_ends{0};
   std::vector<std::uint32_t> number;
   for (std::size_t part = 0; part < meshes.size(); ++part) {
     const Mesh& mesh = *meshes[part];
@@ -123,10 +163,10 @@ Mesh weld_pointers(std::span<const Mesh* const> meshes, const Grid& grid) {
       result.normals.resize(result.edge_ids.size());
     }
     number.resize(mesh.positions.size());
+    auto place = result.edge_ids.cbegin();
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-      const auto place =
-          std::lower_bound(result.edge_ids.begin(), result.edge_ids.end(), mesh.edge_ids[v]);
-      const auto n = static_cast<std::size_t>(place - result.edge_ids.begin());
+      place = find_from(result.edge_ids, place, mesh.edge_ids[v]);
+      const auto n = static_cast<std::size_t>(place - result.edge_ids.cbegin());
       number[v] = static_cast<std::uint32_t>(n);
       result.positions[n] = mesh.positions[v];
       if (!mesh.normals.empty()) {
@@ -140,10 +180,10 @@ Mesh weld_pointers(std::span<const Mesh* const> meshes, const Grid& grid) {
                            {number[t[0]], number[t[1]], number[t[2]]},
                            static_cast<std::uint32_t>(part)});
     }
+    triangle_ends.push_back(triangles.size());
   }
-  std::stable_sort(
-      triangles.begin(), triangles.end(),
-      [](const PlacedTriangle& a, const PlacedTriangle& b) { return a.cell < b.cell; });
+  merge_parts(triangles, triangle_ends,
+              [](const PlacedTriangle& a, const PlacedTriangle& b) { return a.cell < b.cell; });
   check_disjoint(triangles, grid.dims);
   result.triangles.resize(triangles.size());
   std::transform(triangles.begin(), triangles.end(), result.triangles.begin(),
