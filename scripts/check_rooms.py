@@ -30,13 +30,12 @@ ROOMS = {
 PUBLIC = {
     "base": ["array", "error", "float_environment", "out_of_memory", "printable", "progress", "vec3",
              "version"],
-    "grid": ["block", "edge_id", "field_view", "grid", "options", "report"],
+    "grid": ["block", "edge_id", "field_view", "grid", "options", "report", "values"],
     "planes": ["plane"],
     "cells": ["cell_planes"],
     "mesh": ["curvature", "measure", "mesh", "mesh_portion", "smoothing"],
     "surface": ["reconstruct", "weld"],
-    "sampling": ["constrained_smoothing", "fractions_from_function", "fractions_from_mesh", "mollify",
-                 "values"],
+    "sampling": ["constrained_smoothing", "fractions_from_function", "fractions_from_mesh", "mollify"],
     "shapes": ["shapes"],
 }
 
