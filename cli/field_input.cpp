@@ -145,19 +145,13 @@ LoadedField load_field(const FieldInput& input) {
   return field;
 }
 
-std::string small_values_warning(const FieldInput& input, const FieldFile& file) {
+std::string scale_warning(const FieldInput& input, const FieldFile& file) {
   const bool as_it_is = !input.full_value && input.labels.empty();
   if (!as_it_is || !is_integer(file.file_type) || file.file_type != value_type_of(file.type)) {
     return "";
   }
-  const std::optional<ValueExtremes> extremes = extremes_of(ValueView(file.view()));
-  const double largest = largest_value(file.file_type);
-  if (!extremes || extremes->highest <= 0.0 || extremes->highest >= 0.5 * largest) {
-    return "";
-  }
-  return "'" + input.path + "': the highest value is " + exact(extremes->highest) + ", and " +
-         exact(largest) + " of " + name_of(file.file_type) +
-         " counts as full; --full-value or --label tell what is inside";
+  const std::string doubt = doubt_of_scale(ValueView(file.view()), "--full-value or --label");
+  return doubt.empty() ? "" : "'" + input.path + "': " + doubt;
 }
 
 const char* name_of(Source source) {

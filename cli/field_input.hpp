@@ -47,9 +47,9 @@ void add_field_options(CLI::App& command, FieldInput& input);
 /// \throw Error as read_field()
 [[nodiscard]] LoadedField load_field(const FieldInput& input);
 
-/// What a user should know of integers of which none reaches half of what counts as full; empty if
-/// there is nothing to say, or the reader has said it. One pass over the field.
-[[nodiscard]] std::string small_values_warning(const FieldInput& input, const FieldFile& file);
+/// Says that integers look like a mask or a segmentation (doubt_of_scale()); empty if they do not, or
+/// the reader has said it.
+[[nodiscard]] std::string scale_warning(const FieldInput& input, const FieldFile& file);
 
 /// "command line", "file" or "assumed".
 [[nodiscard]] const char* name_of(Source source);

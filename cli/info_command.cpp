@@ -236,8 +236,8 @@ void run(const Request& request) {
     const LoadedField field = load_field(request.input);
     const FieldFacts facts = look_at_field(field.file.view(), request.purity_tolerance);
     std::vector<std::string> warnings = field.file.warnings;
-    const std::string small = small_values_warning(request.input, field.file);
-    warnings.insert(warnings.end(), small.empty() ? 0 : 1, small);
+    const std::string doubt = scale_warning(request.input, field.file);
+    warnings.insert(warnings.end(), doubt.empty() ? 0 : 1, doubt);
     warn_all(warnings);
     as_json ? output(request, "field", field_json(field, facts), warnings)
             : print_field(std::cout, request, field, facts);

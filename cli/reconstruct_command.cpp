@@ -153,17 +153,12 @@ Json report_json(const Request& request, const LoadedField& field, const Reconst
   return json;
 }
 
-/// Appends what there is to know of the field's file. Its values are looked at again only where they
-/// gave no surface, or perhaps one along sides alone.
-void add_warnings(const Request& request, const LoadedField& field, const Reconstruction& result,
+/// Appends what there is to know of the field's file and of its values.
+void add_warnings(const Request& request, const LoadedField& field,
                   std::vector<std::string>& warnings) {
   warnings.insert(warnings.end(), field.file.warnings.begin(), field.file.warnings.end());
-  const Sides& sides = request.options.sides;
-  const bool full_beyond = std::find(sides.begin(), sides.end(), Side::full) != sides.end();
-  if (result.mesh.triangles.empty() || full_beyond) {
-    const std::string small = small_values_warning(request.input, field.file);
-    warnings.insert(warnings.end(), small.empty() ? 0 : 1, small);
-  }
+  const std::string doubt = scale_warning(request.input, field.file);
+  warnings.insert(warnings.end(), doubt.empty() ? 0 : 1, doubt);
 }
 
 void print_warnings(const Request& request, const Reconstruction& result) {
@@ -343,7 +338,7 @@ void run(const Request& request) {
         errors_of(result.mesh, request.reference, request.quiet, warnings));
   }
   seconds.reconstruct = watch.lap();
-  add_warnings(request, field, result, warnings);
+  add_warnings(request, field, warnings);
 
   Json json = report_json(request, field, result, seconds);
   const double cell = *std::min_element(field.grid.spacing.begin(), field.grid.spacing.end());

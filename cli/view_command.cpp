@@ -113,11 +113,12 @@ void load(const Request& request, const FieldInput& input, bool alone, std::vect
       reconstructed(field, input.path, Placement::plic, alone ? "plic" : name, request.quiet));
   std::vector<std::string>& warnings = shown.back().surface.warnings;
   warnings.insert(warnings.end(), field.file.warnings.begin(), field.file.warnings.end());
+  const std::string doubt = scale_warning(input, field.file);
   if (shown.back().surface.mesh.triangles.empty()) {
-    const std::string small = small_values_warning(input, field.file);
     throw Error(ErrorCode::invalid_value,
-                small.empty() ? "'" + name + "': the surface is empty" : small);
+                doubt.empty() ? "'" + name + "': the surface is empty" : doubt);
   }
+  warnings.insert(warnings.end(), doubt.empty() ? 0 : 1, doubt);
 }
 
 std::vector<Shown> load_all(const Request& request) {

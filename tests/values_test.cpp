@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "difmesh/error.hpp"
@@ -169,4 +170,73 @@ TEST_CASE("values: bad arguments are refused") {
   CHECK(error_of([&] { (void)extremes_of(ValueView{}); }) == ErrorCode::invalid_argument);
   const ValueView none(values.data(), ValueType::float32, {1, 0, 1}, {1, 1, 1});
   CHECK(error_of([&] { (void)extremes_of(none); }) == ErrorCode::invalid_grid);
+}
+
+namespace {
+
+/// Does `values` look like a mask whose highest value is `highest`?
+template <class T>
+void check_doubt(const std::vector<T>& values, ValueType type, const std::string& highest,
+                 const std::string& full) {
+  CAPTURE(name_of(type));
+  CHECK(doubt_of_scale(view_of(values, type)) ==
+        "the highest value is " + highest + ", and " + full + " of " + name_of(type) +
+            " counts as full unless a full value or labels are given");
+}
+
+}  // namespace
+
+TEST_CASE("values: masks and segmentations are told from shares of the largest value") {
+  using std::int64_t;
+  using std::uint64_t;
+  check_doubt<std::uint8_t>({0, 200, 0, 200}, ValueType::uint8, "200", "255");
+  check_doubt<std::uint8_t>({0, 127, 1}, ValueType::uint8, "127", "255");
+  check_doubt<std::uint8_t>({254}, ValueType::uint8, "254", "255");
+  check_doubt<std::uint16_t>({0, 40000}, ValueType::uint16, "40000", "65535");
+  check_doubt<std::int8_t>({-3, 100}, ValueType::int8, "100", "127");
+  check_doubt<std::int64_t>({0, (int64_t{1} << 62) + 1}, ValueType::int64, "4611686018427387905",
+                            "9223372036854775807");
+  check_doubt<uint64_t>({0, 1}, ValueType::uint64, "1", "18446744073709551615");
+  // Segmentations of up to 16 values, in any order; what reaches no half may have any number.
+  std::vector<std::uint8_t> labels;
+  for (int n = 0; n < 4000; ++n) {
+    labels.push_back(static_cast<std::uint8_t>(n * 7 % 16 * 16));
+  }
+  check_doubt(labels, ValueType::uint8, "240", "255");
+  std::vector<std::uint8_t> low(labels);
+  for (std::size_t n = 0; n < low.size(); ++n) {
+    low[n] = static_cast<std::uint8_t>(n % 128);
+  }
+  check_doubt(low, ValueType::uint8, "127", "255");
+
+  const auto none = [](const auto& values, ValueType type) {
+    return doubt_of_scale(view_of(values, type)).empty();
+  };
+  labels.push_back(1);  // the seventeenth
+  CHECK(none(labels, ValueType::uint8));
+  low.insert(low.begin() + 700, 255);
+  CHECK(none(low, ValueType::uint8));
+  CHECK(none(std::vector<std::uint8_t>{0, 255}, ValueType::uint8));
+  CHECK(none(std::vector<std::uint8_t>(500, 0), ValueType::uint8));
+  CHECK(none(std::vector<std::int16_t>{0, -5, -5}, ValueType::int16));
+  CHECK(none(std::vector<float>{0.0F, 200.0F}, ValueType::float32));
+  CHECK(error_of([] { (void)doubt_of_scale(ValueView{}); }) == ErrorCode::invalid_argument);
+}
+
+TEST_CASE("values: every cell counts where masks are told, whatever the strides") {
+  std::vector<std::uint16_t> cells(std::size_t{2} * 200 * 3, 65535);
+  ValueView view(cells.data(), ValueType::uint16, {200, 3, 1}, {2, 400, 1200});
+  for (std::size_t n = 0; n < cells.size(); n += 2) {
+    cells[n] = 50000;  // the others are no cells of the view
+  }
+  CHECK(doubt_of_scale(view, "x").find("50000") != std::string::npos);
+  cells[2 * 399] = 65535;
+  CHECK(doubt_of_scale(view).empty());
+  std::vector<std::uint16_t> packed(640, 7);
+  for (const std::size_t at :
+       {std::size_t{0}, std::size_t{63}, std::size_t{64}, std::size_t{639}}) {
+    packed[at] = 65535;
+    CHECK(doubt_of_scale(view_of(packed, ValueType::uint16)).empty());
+    packed[at] = 7;
+  }
 }

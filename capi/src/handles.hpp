@@ -13,7 +13,7 @@
 struct dif_mesh {
   difmesh::Mesh mesh;
   std::optional<difmesh::Report> report = {};  ///< of meshes that a reconstruction made
-  std::vector<std::string> warnings = {};      ///< of the file that the mesh comes from
+  std::vector<std::string> warnings = {};      ///< of the file or field that it comes from
 };
 
 struct dif_shape {

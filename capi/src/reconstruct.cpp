@@ -14,7 +14,11 @@ namespace capi = difmesh::capi;
 namespace {
 
 std::unique_ptr<dif_mesh> to_handle(difmesh::Reconstruction&& result) {
-  return std::unique_ptr<dif_mesh>(new dif_mesh{std::move(result.mesh), result.report});
+  auto handle = std::make_unique<dif_mesh>();
+  handle->warnings = std::move(result.report.warnings);
+  handle->mesh = std::move(result.mesh);
+  handle->report = std::move(result.report);
+  return handle;
 }
 
 dif_report to_report(const difmesh::Report& report) {

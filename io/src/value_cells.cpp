@@ -46,15 +46,10 @@ void set_fractions(const std::filesystem::path& path, const RawCells& raw, const
   }
 }
 
-void warn_of_small_values(const std::filesystem::path& path, const RawCells& raw,
-                          FieldFile& field) {
-  const std::optional<ValueExtremes> extremes = extremes_of(row_of(raw));
-  const double largest = largest_value(raw.type);
-  if (extremes && extremes->highest > 0.0 && extremes->highest < 0.5 * largest) {
-    add_warning(field.warnings, path,
-                "the highest value is " + to_text(extremes->highest) + ", and " + to_text(largest) +
-                    " of " + name_of(raw.type) +
-                    " counts as full unless a full value or labels are given");
+void warn_of_scale(const std::filesystem::path& path, const RawCells& raw, FieldFile& field) {
+  const std::string doubt = doubt_of_scale(row_of(raw));
+  if (!doubt.empty()) {
+    add_warning(field.warnings, path, doubt);
   }
 }
 
@@ -81,7 +76,7 @@ void set_cells(const std::filesystem::path& path, RawCells raw, const ReadFieldO
     field.type = static_cast<ScalarType>(raw.type);
     field.cells = std::move(raw.bytes);
   } else {
-    warn_of_small_values(path, raw, field);
+    warn_of_scale(path, raw, field);
     set_fractions(path, raw, {0.0, largest_value(raw.type), false}, field);
   }
 }

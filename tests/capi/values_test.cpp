@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -68,4 +69,46 @@ TEST_CASE("a field of values is no field of fractions and is told what makes one
   dif_mesh* mesh = nullptr;
   CHECK(dif_reconstruct(&field, nullptr, &mesh) == DIF_ERROR_INVALID_ARGUMENT);
   CHECK(std::string(dif_last_message()).find("dif_fractions_from_labels") != std::string::npos);
+}
+
+TEST_CASE("a mesh says where its field looks like a mask") {
+  std::vector<std::uint16_t> cells(125, 0);
+  for (std::size_t n = 0; n < cells.size(); ++n) {
+    const bool inside = n % 5 % 4 != 0 && n / 5 % 5 % 4 != 0 && n / 25 % 4 != 0;
+    cells[n] = inside ? 50000 : 0;
+  }
+  const dif_field field = c::c_field(cells.data(), DIF_UINT16, {5, 5, 5});
+  dif_options options = c::prepared(dif_options_init);
+  const auto warning_of = [&](const dif_mesh* mesh) {
+    const char* text = nullptr;
+    REQUIRE(dif_mesh_warning(mesh, 0, &text) == DIF_OK);
+    return std::string(text != nullptr ? text : "");
+  };
+  const auto made_warning = [&] {
+    dif_mesh* mesh = nullptr;
+    REQUIRE(dif_reconstruct(&field, &options, &mesh) == DIF_OK);
+    const c::MeshHandle owned(mesh);
+    return warning_of(mesh);
+  };
+  const std::string wanted =
+      "the highest value is 50000, and 65535 of uint16 counts as full unless a full value or "
+      "labels are given";
+  CHECK(made_warning() == wanted);
+  options.purity_tolerance = 0.1;
+  CHECK(made_warning() == wanted);
+  std::replace(cells.begin(), cells.end(), std::uint16_t{50000}, std::uint16_t{2});
+  CHECK(made_warning().find("highest value is 2,") != std::string::npos);
+  cells[124] = 65535;
+  CHECK(made_warning().empty());
+  std::replace(cells.begin(), cells.end(), std::uint16_t{2}, std::uint16_t{65535});
+  CHECK(made_warning().empty());
+
+  dif_block block = c::prepared(dif_block_init);
+  std::fill(cells.begin(), cells.end(), std::uint16_t{50000});
+  std::copy_n(field.dims, 3, block.dims);
+  const dif_grid grid = c::c_grid({.dims = {5, 5, 5}});
+  dif_mesh* part = nullptr;
+  REQUIRE(dif_reconstruct_block(&field, &block, &grid, nullptr, &part) == DIF_OK);
+  const c::MeshHandle owned(part);
+  CHECK(warning_of(part).empty());  // other blocks may have full cells
 }

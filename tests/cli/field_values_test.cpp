@@ -101,6 +101,27 @@ TEST_CASE("reconstruct and info name the highest value of a mask taken for fract
   }
 }
 
+TEST_CASE("reconstruct warns of a mask of a high value that is taken for fractions") {
+  const TempFolder folder;
+  std::string data = labels<std::uint8_t>();
+  std::replace_if(
+      data.begin(), data.end(), [](char value) { return value != 0; }, static_cast<char>(200));
+  const auto field = folder.file("mask.nrrd", nrrd("uint8", "", data));
+  const std::string wanted = "difmesh: warning: '" + field.string() +
+                             "': the highest value is 200, and 255 of uint8 counts as full unless "
+                             "--full-value or --label are given\n";
+  const Outcome made = reconstruct(field, {});
+  CHECK(made.exit_code == 0);
+  CHECK(made.err == wanted);
+  CHECK(run_program({"info", field.string()}).err == wanted);
+  const Outcome shown =
+      run_program({"view", field.string(), "-o", (field.parent_path() / "page.html").string()});
+  CHECK(shown.exit_code == 0);
+  CHECK(shown.err == wanted);
+  check_succeeds(reconstruct(field, {"--label", "200"}));
+  check_succeeds(reconstruct(field, {"--full-value", "200"}));
+}
+
 TEST_CASE("a spacing and an origin on the command line win over what makes no sense in the file") {
   const TempFolder folder;
   const auto zero =

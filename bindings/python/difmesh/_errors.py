@@ -73,7 +73,8 @@ class UnsupportedError(Error, NotImplementedError):
 
 
 class Warning(UserWarning):
-    """What was left out of a file or taken otherwise than it says; see the module `warnings`."""
+    """What a user should know though it is no error: what was left out of a file or taken otherwise
+    than it says, or that a field looks like a mask; see the module `warnings`."""
 
 
 _TYPES: dict[int, type[Error]] = {

@@ -9,13 +9,13 @@ import numpy.typing as npt
 
 from . import _constants
 from ._calls import Progress, Relay
-from ._errors import check
+from ._errors import check, warn_of
 from ._library import library
 from ._memory import Triple, field_struct, grid_struct, index_triple
 from ._mesh import Mesh, new_mesh_handle
 from ._options import to_options
 from ._structs import DifBlock
-from ._values import Labels, taken_as_asked, warn_of_small_values
+from ._values import Labels, taken_as_asked
 
 #: Ghost cells that a block needs beyond each face, as far as the domain reaches.
 GHOST_LAYERS = _constants.GHOST_LAYERS
@@ -57,9 +57,10 @@ def reconstruct(
         it; "ijk" if it is indexed [i, j, k]. Says nothing of how it lies in memory.
     full_value, empty_value: the values that stand for 1 and 0, as fractions_from_values() takes
         them; the array may then be of any integers or floats.
-    labels: one integer or several; cells with one of these values are full, the others empty. If
-        neither is given and the mesh is empty though integers are not all 0, a Warning names the
-        highest value.
+    labels: one integer or several; cells with one of these values are full, the others empty.
+        If neither is given, a Warning names the highest value of integers that look like a mask or
+        a segmentation: none is the largest of the type, and none reaches half of it or there are at
+        most 16 different ones.
     placement: "plic" (second-order accurate), "manson", "linear" (plain marching cubes) or
         "midpoint".
     normals: how those of cells are estimated: "height_function", "myc", "youngs", "elvira" or
@@ -98,8 +99,7 @@ def reconstruct(
     handle = new_mesh_handle()
     relay.call(library.dif_reconstruct, byref(field), byref(options), byref(handle.pointer))
     mesh = Mesh._from_handle(handle)
-    if asked is fractions and len(mesh.faces) == 0:
-        warn_of_small_values(array, stacklevel=2)
+    warn_of(handle.pointer, library.dif_mesh_warning)
     del array  # which had to live until here
     return mesh
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import warnings
-from ctypes import byref, c_double
+from ctypes import byref
 from typing import Any, Optional, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
 
-from ._errors import Warning, check
+from ._errors import check
 from ._field import Field
 from ._library import library
 from ._memory import array_struct, values_array
@@ -83,20 +82,3 @@ def taken_as_asked(
     if isinstance(fractions, Field):
         return Field(made, fractions.spacing, fractions.origin)
     return made
-
-
-def warn_of_small_values(array: npt.NDArray[Any], stacklevel: int) -> None:
-    """Issues a warning where integers reach no half of what counts as full."""
-    if array.dtype.kind not in "iu":
-        return
-    low, high = c_double(), c_double()
-    field = array_struct(array, "kji")
-    check(library.dif_value_extremes(byref(field), byref(low), byref(high)))
-    largest = np.iinfo(array.dtype).max
-    if 0.0 < high.value < 0.5 * largest:
-        warnings.warn(
-            f"the highest value is {high.value:.0f}, and {largest} of {array.dtype} counts as full "
-            "unless full_value or labels are given",
-            Warning,
-            stacklevel=stacklevel + 1,
-        )

@@ -561,7 +561,6 @@ DIF_API dif_status dif_fractions_from_values(const dif_field* values, double emp
 DIF_API dif_status dif_fractions_from_labels(const dif_field* values, int64_t count,
                                              const int64_t labels[], uint8_t fractions[]);
 /* The lowest and the highest value; NaN takes no part, and both are NaN where there is nothing else.
- * A mask of 0 and 1 in DIF_UINT8 has the highest value 1, of 255 that dif_reconstruct() takes for full.
  * Errors: INVALID_ARGUMENT, INVALID_GRID, STRUCT. Since 0.1. */
 DIF_API dif_status dif_value_extremes(const dif_field* values, double* lowest, double* highest);
 
@@ -826,9 +825,10 @@ DIF_API dif_status dif_mesh_write(const dif_mesh* mesh, const char* path,
  * Errors: FILE_MISSING, FILE_FORMAT, TOO_LARGE, OUT_OF_MEMORY, UNSUPPORTED (as above; FILE_FORMAT for
  * compressed glTF). Since 0.1. */
 DIF_API dif_status dif_mesh_read(const char* path, dif_mesh** mesh);
-/* Borrowed: warning number `index`, from 0, of the reading; NULL from their count on. It tells what was
- * left out of the file or taken otherwise than it says, in one English sentence of at most 1000 bytes
- * of UTF-8. Other meshes have none. Errors: INVALID_ARGUMENT. Since 0.1. */
+/* Borrowed: warning number `index`, from 0, of the reading or of dif_reconstruct(); NULL from their
+ * count on. It tells what was left out of the file or taken otherwise than it says, or that values
+ * look like a mask, in one English sentence of at most 1000 bytes of UTF-8. Other meshes have none.
+ * Errors: INVALID_ARGUMENT. Since 0.1. */
 DIF_API dif_status dif_mesh_warning(const dif_mesh* mesh, int64_t index, const char** text);
 
 typedef struct dif_mesh_read_options {

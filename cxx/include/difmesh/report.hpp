@@ -3,6 +3,8 @@
 /// What a reconstruction tells beside its mesh.
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 namespace difmesh {
 
@@ -32,6 +34,9 @@ struct Report {
     double triangles = 0.0;      ///< connectivity, volume
     double total = 0.0;
   } seconds;
+  /// What a user should know though it is no error, one English sentence each: that integers look
+  /// like a mask or a segmentation (values.hpp, doubt_of_scale()). Blocks have none.
+  std::vector<std::string> warnings;
 };
 
 }  // namespace difmesh

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 
 #include "difmesh/field_view.hpp"
 #include "difmesh/grid.hpp"
@@ -113,5 +115,14 @@ struct ValueExtremes {
 };
 /// Of all values but NaN; nothing where there are no others. Errors and cost: likewise.
 [[nodiscard]] std::optional<ValueExtremes> extremes_of(const ValueView& values);
+
+/// Says in a sentence that integers are hardly shares of the largest value of their type, which
+/// counts as full where nothing else is said: "the highest value is 200, and 255 of uint8 counts as
+/// full unless `remedy` are given". So it is where the largest value does not occur, some value is
+/// above 0, and none reaches half of it or there are at most 16 different ones, as in masks and
+/// segmentations. Otherwise, and for floats, "". Errors: likewise. Cost: one pass at most, which ends
+/// at the first full cell.
+[[nodiscard]] std::string doubt_of_scale(const ValueView& values,
+                                         std::string_view remedy = "a full value or labels");
 
 }  // namespace difmesh

@@ -11,6 +11,7 @@
 #include "difmesh/error.hpp"
 #include "difmesh/float_environment.hpp"
 #include "difmesh/out_of_memory.hpp"
+#include "difmesh/values.hpp"
 #include "grid/block_field.hpp"
 #include "placement/placement.hpp"
 #include "surface/dual_grid.hpp"
@@ -97,12 +98,30 @@ Reconstruction run(const BlockField& field, const Options& options) {
   }
 }
 
+/// A body of some size has more full cells than interfacial ones, which settles it without a pass: no
+/// cell that is not full counts for more than 1, nor for anything where it is not interfacial.
+bool may_lack_full_cells(const FieldView& field, const Grid& grid, const Options& options,
+                         const Report& report) {
+  if (field.type != ScalarType::uint8 && field.type != ScalarType::uint16) {
+    return false;
+  }
+  const bool all_seen = options.purity_tolerance * largest_value(value_type_of(field.type)) < 1.0;
+  const auto interfacial = static_cast<double>(report.interfacial_cells);
+  return !all_seen ||
+         (interfacial > 0.0 && report.fraction_volume <= interfacial * grid.cell_volume());
+}
+
 }  // namespace
 
 Reconstruction reconstruct(const FieldView& field, const Grid& grid, const Options& options) {
   const DefaultFloatEnvironment environment;
   const Block whole{{0, 0, 0}, grid.dims, {0, 0, 0}, {0, 0, 0}};
-  return run(detail::make_block_field(field, whole, grid, options), options);
+  Reconstruction result = run(detail::make_block_field(field, whole, grid, options), options);
+  if (may_lack_full_cells(field, grid, options, result.report)) {
+    const std::string doubt = doubt_of_scale(ValueView(field));
+    result.report.warnings.insert(result.report.warnings.end(), doubt.empty() ? 0 : 1, doubt);
+  }
+  return result;
 }
 
 Reconstruction reconstruct_block(const FieldView& field, const Block& block, const Grid& grid,

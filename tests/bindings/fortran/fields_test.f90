@@ -337,6 +337,23 @@ contains
     call expect(status == dif_error_invalid_argument, 'labels in another shape')
   end subroutine
 
+  subroutine test_mask()
+    integer(c_int8_t), target :: u1(8, 7, 6)
+    character(1000), allocatable :: warnings(:)
+    type(dif_mesh) :: mesh
+    integer :: status
+    u1 = 0
+    u1(2:7, 2:6, 2:5) = int(200 - 256, c_int8_t)
+    call mesh%reconstruct(dif_view(u1), status)
+    call mesh%get_warnings(warnings, status)
+    call expect(size(warnings) == 1, 'a warning of a mask')
+    call expect(index(warnings(1), 'highest value is 200') > 0, trim(warnings(1)))
+    where (u1 /= 0) u1 = -1_c_int8_t
+    call mesh%reconstruct(dif_view(u1), status)
+    call mesh%get_warnings(warnings, status)
+    call expect(size(warnings) == 0, 'no warning of what is full')
+  end subroutine
+
   subroutine test_value_files()
     integer(c_int16_t), target :: i2(8, 7, 6)
     real(8), allocatable :: c(:, :, :)
@@ -360,6 +377,7 @@ contains
     call file%get_warnings(warnings, status)
     call expect(size(warnings) == 1, 'a warning')
     call expect(index(warnings(1), 'highest value is 40') > 0, trim(warnings(1)))
+    call test_mask()
     call file%read('values_test.raw', status, layout, labels=[40])
     call file%get_fractions(c, status)
     call expect(count(c > 0.5d0) == 120 .and. nint(sum(c)) == 120, 'labels in a file')

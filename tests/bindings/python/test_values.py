@@ -63,8 +63,16 @@ class Values(unittest.TestCase):
             mesh = difmesh.reconstruct(mask)
         self.assertEqual(os.path.basename(caught.filename), "test_values.py")
         self.assertEqual(len(mesh.faces), 0)
+        high = "highest value is 200.*255 of uint8"
+        with self.assertWarnsRegex(difmesh.Warning, high) as caught:
+            mesh = difmesh.reconstruct(mask * np.uint8(200))
+        self.assertEqual(os.path.basename(caught.filename), "test_values.py")
+        self.assertGreater(len(mesh.faces), 0)
+        scan = np.random.default_rng(1).integers(0, 250, (9, 9, 9)).astype(np.uint8)
         with warnings.catch_warnings():
             warnings.simplefilter("error")
+            difmesh.reconstruct(scan)
+            difmesh.reconstruct(mask * np.uint8(200), labels=200)
             difmesh.reconstruct(mask, labels=1)
             difmesh.reconstruct(mask, labels=2)
             difmesh.reconstruct(np.full((3, 3, 3), 255, np.uint8))

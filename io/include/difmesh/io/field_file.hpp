@@ -70,8 +70,8 @@ struct ReadFieldOptions {
 ///   there is no change between, say, LPS and RAS.
 /// Axes beyond three must have one sample, and the field's three must follow from that.
 /// Elements become uint8 or uint16 where the file has these, uint8 by `labels`; float32 where its
-/// elements have up to 2 bytes or are float32, and float64 otherwise. Those integers of other types
-/// that reach no half of their largest value bring a warning.
+/// elements have up to 2 bytes or are float32, and float64 otherwise. Integers of other types bring a
+/// warning where doubt_of_scale() has one; of uint8 and uint16 reconstruct() has it.
 ///
 /// The file is checked against its header before memory is taken: never more than five times the
 /// size of its data, or 1032 times five for gzip, as deflate gives 1032 at most. Of inflated bytes
