@@ -173,6 +173,16 @@ bool is_morphed(const JsonPlace& node, const JsonPlace& mesh) {
   return !is_zero && with_targets;
 }
 
+/// The last row should be 0, 0, 0, 1; viewers leave it out as we do.
+bool is_affine(const JsonPlace& node) {
+  if (!node.has("matrix") || is_our_frame(node)) {
+    return true;
+  }
+  constexpr double kRounding = 1e-6;
+  const auto m = numbers_of<16>(node.at("matrix"));
+  return std::abs(m[3]) + std::abs(m[7]) + std::abs(m[11]) + std::abs(m[15] - 1.0) <= kRounding;
+}
+
 bool is_identity(const Affine& transform) {
   const Affine none;
   return transform.linear == none.linear && transform.shift == none.shift;
@@ -182,7 +192,11 @@ bool is_identity(const Affine& transform) {
 class SceneReader {
  public:
   explicit SceneReader(GltfSource& source)
-      : source_(source), budget_(source), seen_(source.count("nodes"), false) {}
+      : source_(source),
+        budget_(source),
+        seen_(source.count("nodes"), false),
+        carries_mesh_(seen_),
+        parents_(seen_.size(), kNone) {}
 
   MeshFile read() {
     check_extensions();
@@ -196,14 +210,18 @@ class SceneReader {
       source_.root().at("meshes").fail(
           "hang on no node of the scene; meshes without a place are not supported");
     }
+    note_unseen();
+    note_animations();
     whole_.content.warnings = source_.warnings();
     return std::move(whole_.content);
   }
 
  private:
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
   struct Pending {
     JsonPlace index;
     Affine above;
+    std::size_t parent = kNone;
   };
 
   void check_extensions() {
@@ -238,6 +256,62 @@ class SceneReader {
     }
   }
 
+  /// Nodes of other scenes or of none, and meshes that no node has.
+  void note_unseen() {
+    std::vector<bool> placed(source_.count("meshes"), false);
+    for (std::size_t n = 0; n < seen_.size(); ++n) {
+      const JsonPlace node = source_.root().at("nodes").at(n);
+      if (!node.has("mesh")) {
+        continue;
+      }
+      const std::uint64_t mesh = node.at("mesh").whole();
+      if (mesh < placed.size()) {
+        placed[static_cast<std::size_t>(mesh)] = true;
+      }
+      if (!seen_[n]) {
+        source_.omissions().note(
+            node.place(), "has a mesh, but is not in the scene that was read, and was left out");
+      }
+    }
+    for (std::size_t m = 0; m < placed.size(); ++m) {
+      if (!placed[m]) {
+        source_.omissions().note(source_.root().at("meshes").at(m).place(),
+                                 "hangs on no node, and was left out");
+      }
+    }
+  }
+
+  /// Those that move, turn, scale or morph a mesh that was read.
+  void note_animations() {
+    for (std::size_t a = 0; a < source_.count("animations"); ++a) {
+      const JsonPlace animation = source_.root().at("animations").at(a);
+      bool moves = false;
+      for (std::size_t c = 0; animation.has("channels") && c < animation.at("channels").size();
+           ++c) {
+        const JsonPlace channel = animation.at("channels").at(c);
+        moves = moves || (channel.has("target") && is_of_a_mesh(channel.at("target")));
+      }
+      if (moves) {
+        source_.omissions().note(animation.place(),
+                                 "moves meshes, which were read as they are without it");
+      }
+    }
+  }
+
+  /// Whether a channel's target is a node above a mesh, or what KHR_animation_pointer may name.
+  [[nodiscard]] bool is_of_a_mesh(const JsonPlace& target) const {
+    if (target.has("node")) {
+      (void)source_.element("nodes", target.at("node"));
+      return carries_mesh_[static_cast<std::size_t>(target.at("node").whole())];
+    }
+    if (!target.has("extensions") || !target.at("extensions").has("KHR_animation_pointer")) {
+      return false;
+    }
+    const JsonPlace extension = target.at("extensions").at("KHR_animation_pointer");
+    const std::string pointer = extension.has("pointer") ? extension.at("pointer").text() : "";
+    return pointer.starts_with("/nodes/") || pointer.starts_with("/meshes/");
+  }
+
   void push_roots() {
     const JsonPlace root = source_.root();
     if (source_.count("scenes") > 0) {
@@ -261,14 +335,14 @@ class SceneReader {
     for (std::size_t n = seen_.size(); n-- > 0;) {
       if (!is_child[n]) {
         indices_.emplace_back(n);
-        stack_.push_back({{source_.path(), indices_.back(), "nodes"}, {}});
+        stack_.push_back({{source_.path(), indices_.back(), "nodes"}, {}, kNone});
       }
     }
   }
 
-  void push(const JsonPlace& nodes, const Affine& above) {
+  void push(const JsonPlace& nodes, const Affine& above, std::size_t parent = kNone) {
     for (std::size_t n = nodes.size(); n-- > 0;) {
-      stack_.push_back({nodes.at(n), above});
+      stack_.push_back({nodes.at(n), above, parent});
     }
   }
 
@@ -280,6 +354,11 @@ class SceneReader {
                          " again; nodes have one parent and no cycles");
     }
     seen_[number] = true;
+    parents_[number] = pending.parent;
+    if (!is_affine(node)) {
+      source_.omissions().note(
+          node.place(), "has a matrix whose last row is not 0, 0, 0, 1, and that row was left out");
+    }
     if (is_hidden(node)) {
       source_.omissions().note(node.place(),
                                "is hidden by KHR_node_visibility, and was read all the same");
@@ -287,9 +366,12 @@ class SceneReader {
     const Affine transform = pending.above.after(transform_of(node));
     if (node.has("mesh")) {
       add_mesh(node, transform);
+      for (std::size_t n = number; n != kNone && !carries_mesh_[n]; n = parents_[n]) {
+        carries_mesh_[n] = true;
+      }
     }
     if (node.has("children")) {
-      push(node.at("children"), transform);
+      push(node.at("children"), transform, number);
     }
   }
 
@@ -308,6 +390,8 @@ class SceneReader {
   GltfSource& source_;
   Budget budget_;
   std::vector<bool> seen_;
+  std::vector<bool> carries_mesh_;    ///< at the node or below it
+  std::vector<std::size_t> parents_;  ///< of the nodes seen
   std::vector<Pending> stack_;
   std::deque<nlohmann::json> indices_;  ///< of roots that no scene names
   GltfSurface whole_;

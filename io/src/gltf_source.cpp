@@ -280,6 +280,13 @@ void GltfSource::parse() {
   if (!version.starts_with("2.")) {
     fail_format(path_, "glTF of version " + in_quotes(version) + ", not 2");
   }
+  if (root().at("asset").has("minVersion")) {
+    const std::string& least = root().at("asset").at("minVersion").text();
+    if (least != "2.0") {
+      fail_format(path_,
+                  "it needs a reader of glTF " + in_quotes(least) + ", and 2.0 is read here");
+    }
+  }
 }
 
 std::vector<std::string> GltfSource::warnings() const {

@@ -267,6 +267,87 @@ TEST_CASE("gltf: what viewers show otherwise is read with a warning that names i
       "meshes[0].primitives[1] has no POSITION, and was left out, as in 2 other places.");
 }
 
+TEST_CASE("gltf: what is in no scene, and what moves, is named in a warning") {
+  const auto warnings = [](const std::function<void(Json&)>& change) {
+    Builder builder;
+    builder.square();
+    builder.primitive()["mode"] = 5;
+    const Mesh plain = builder.read().mesh;
+    builder.json()["nodes"] = Json::parse(R"([{"children":[1,2]},{"mesh":0},{"camera":0}])");
+    change(builder.json());
+    const difmesh::MeshFile found = builder.read();
+    CHECK(found.mesh.positions == plain.positions);
+    CHECK(found.mesh.triangles == plain.triangles);
+    return found.warnings;
+  };
+  const auto check = [&](const std::function<void(Json&)>& change, const std::string& words) {
+    CAPTURE(words);
+    const auto found = warnings(change);
+    REQUIRE(found.size() == 1);
+    CAPTURE(found[0]);
+    CHECK(found[0].find("m.glb': " + words) != std::string::npos);
+  };
+  const Json other = {{"mesh", 0}, {"translation", {3, 0, 0}}};
+  const std::string left_out =
+      "has a mesh, but is not in the scene that was read, and was left out";
+  check([&](Json& j) { j["nodes"].push_back(other); }, "nodes[3] " + left_out + ".");
+  check(
+      [&](Json& j) {
+        j["nodes"].push_back(other);
+        j["nodes"].push_back(other);
+        j["scenes"].push_back({{"nodes", {3}}});
+        j["scenes"].push_back({{"nodes", {0, 4}}});
+      },
+      "nodes[3] " + left_out + ", as in 1 other place.");
+  check([](Json& j) { j["meshes"].push_back(j["meshes"][0]); },
+        "meshes[1] hangs on no node, and was left out.");
+  CHECK(warnings([](Json& j) { j["scenes"].push_back({{"nodes", {1}}}); }).empty());
+
+  const auto moving = [](Json& j, const Json& target) {
+    const Json still = {{"channels", {{{"sampler", 0}, {"target", {{"path", "weights"}}}}}}};
+    const Json channel = {{"sampler", 0}, {"target", target}};
+    j["animations"] = {still, {{"channels", {channel}}}};
+  };
+  const std::string moves = "animations[1] moves meshes, which were read as they are without it.";
+  for (const int node : {0, 1}) {
+    check([&](Json& j) { moving(j, {{"node", node}, {"path", "rotation"}}); }, moves);
+  }
+  CHECK(warnings([&](Json& j) { moving(j, {{"node", 2}, {"path", "rotation"}}); }).empty());
+  const auto pointer = [](const char* where) {
+    return Json{{"path", "pointer"},
+                {"extensions", {{"KHR_animation_pointer", {{"pointer", where}}}}}};
+  };
+  check([&](Json& j) { moving(j, pointer("/nodes/1/scale")); }, moves);
+  CHECK(warnings([&](Json& j) { moving(j, pointer("/materials/0/alphaCutoff")); }).empty());
+}
+
+TEST_CASE("gltf: a matrix that is no affine one is told") {
+  Builder builder;
+  builder.square();
+  builder.primitive()["mode"] = 5;
+  Json& matrix = builder.json()["nodes"][0]["matrix"];
+  matrix = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1.0000001};
+  CHECK(builder.read().warnings.empty());
+  for (const std::size_t n : {std::size_t{3}, std::size_t{7}, std::size_t{11}, std::size_t{15}}) {
+    Builder other = builder;
+    other.json()["nodes"][0]["matrix"][n] = 2;
+    const difmesh::MeshFile found = other.read();
+    CHECK(found.mesh.positions[0] == Vec3{1, 2, 3});
+    REQUIRE(found.warnings.size() == 1);
+    CHECK(found.warnings[0].find("nodes[0] has a matrix whose last row") != std::string::npos);
+  }
+}
+
+TEST_CASE("gltf: a file that needs a later version is refused") {
+  Builder builder;
+  builder.square();
+  builder.json()["asset"] = {{"version", "2.1"}, {"minVersion", "2.0"}};
+  CHECK(builder.read().warnings.empty());
+  builder.json()["asset"]["minVersion"] = "2.1";
+  test::check_error([&] { (void)builder.read(); }, difmesh::ErrorCode::file_format,
+                    {"m.glb", "'2.1'", "2.0"});
+}
+
 TEST_CASE("gltf: files may require extensions that leave surfaces alone") {
   Builder builder;
   builder.square();
