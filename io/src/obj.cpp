@@ -20,18 +20,35 @@ namespace difmesh::detail {
 namespace {
 
 /// First words of lines, beside v, vn and f: what a triangle mesh has no place for.
-constexpr std::array<std::string_view, 36> kSkipped{
-    "vt",     "vp",   "g",     "o",     "s",          "mg",        "usemtl",   "mtllib",   "usemap",
-    "maplib", "l",    "p",     "deg",   "bmat",       "step",      "cstype",   "parm",     "trim",
-    "hole",   "scrv", "sp",    "end",   "con",        "bevel",     "c_interp", "d_interp", "lod",
-    "call",   "csh",  "ctech", "stech", "shadow_obj", "trace_obj", "bsp",      "bzp",      "cdc"};
-/// Curves and surfaces that are no polygons.
-constexpr std::array<std::string_view, 3> kFreeForm{"curv", "curv2", "surf"};
+constexpr std::array<std::string_view, 29> kSkipped{
+    "vt",     "vp",     "g",     "o",          "s",        "mg",     "usemtl",   "mtllib",
+    "usemap", "maplib", "deg",   "bmat",       "step",     "cstype", "parm",     "trim",
+    "hole",   "scrv",   "sp",    "end",        "con",      "bevel",  "c_interp", "d_interp",
+    "lod",    "ctech",  "stech", "shadow_obj", "trace_obj"};
 
-template <std::size_t N>
-bool is_one_of(std::string_view word, const std::array<std::string_view, N>& words) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
+/// First words of lines that hold geometry, which is left out with a warning.
+struct LeftOut {
+  std::string_view word;
+  std::string_view what;
+};
+constexpr std::string_view kFreeForm = "curves or surfaces that are no polygons";
+constexpr std::string_view kCalls = "calls of other files or programs";
+constexpr std::array<LeftOut, 10> kLeftOut{{{"l", "lines between points"},
+                                            {"p", "points"},
+                                            {"curv", kFreeForm},
+                                            {"curv2", kFreeForm},
+                                            {"surf", kFreeForm},
+                                            {"bsp", kFreeForm},
+                                            {"bzp", kFreeForm},
+                                            {"cdc", kFreeForm},
+                                            {"call", kCalls},
+                                            {"csh", kCalls}}};
+
+/// Lines left out, of one kind.
+struct LinesLeftOut {
+  std::string_view what;
+  std::uint64_t count = 0;
+};
 
 /// Reads the v, vn and f lines of Wavefront's OBJ.
 class ObjReader {
@@ -115,11 +132,13 @@ class ObjReader {
   }
 
   void skip(std::string_view keyword) {
-    if (is_one_of(keyword, kSkipped)) {
+    const auto* const known = std::ranges::find(kLeftOut, keyword, &LeftOut::word);
+    if (known != kLeftOut.end()) {
       has_words_ = true;
-    } else if (is_one_of(keyword, kFreeForm)) {
+      const auto kind = std::ranges::find(left_out_, known->what, &LinesLeftOut::what);
+      ++(kind != left_out_.end() ? *kind : left_out_.emplace_back(LinesLeftOut{known->what})).count;
+    } else if (std::ranges::find(kSkipped, keyword) != kSkipped.end()) {
       has_words_ = true;
-      ++free_form_;
     } else if (unknown_++ == 0) {
       unknown_word_ = keyword;
       unknown_line_ = lines_.line_number();
@@ -161,10 +180,9 @@ class ObjReader {
     cut_polygons(path_, polygons_, surface);
     leave_out_not_finite(path_, surface,
                          [this](std::size_t v) { return place_of(not_finite_, v); });
-    if (free_form_ > 0) {
+    for (const LinesLeftOut& kind : left_out_) {
       add_warning(surface.warnings, path_,
-                  "skipped " + count_of(static_cast<std::uint64_t>(free_form_), "line") +
-                      " of curves or surfaces that are no polygons");
+                  "skipped " + count_of(kind.count, "line") + " of " + std::string(kind.what));
     }
     if (unknown_ > 0) {
       add_warning(surface.warnings, path_,
@@ -185,9 +203,9 @@ class ObjReader {
   std::size_t beyond_ = 0;  ///< one above the largest index of a vertex so far
   std::int64_t beyond_line_ = 0;
   bool normals_fit_ = true;
-  bool has_words_ = false;      ///< of OBJ, beside v, vn and f
-  std::int64_t free_form_ = 0;  ///< lines of kFreeForm
-  std::int64_t unknown_ = 0;    ///< lines that are none of OBJ's
+  bool has_words_ = false;  ///< of OBJ, beside v, vn and f
+  std::vector<LinesLeftOut> left_out_;
+  std::int64_t unknown_ = 0;  ///< lines that are none of OBJ's
   std::string_view unknown_word_;
   std::int64_t unknown_line_ = 0;
 };

@@ -247,6 +247,14 @@ TEST_CASE("obj and off: what is left out is told") {
              "left out 2 vertices without finite coordinates, which no triangle uses");
   check_told("m.obj", points + "surf 0 1 0 1 1 2 3\ncurv 0 1 1 2\nf 1 2 3\n",
              "skipped 2 lines of curves or surfaces that are no polygons");
+  check_told("m.obj", points + "l 1 2 3\nf 1 2 3\nl 1 2\n",
+             "skipped 2 lines of lines between points");
+  check_told("m.obj", points + "p 1\nf 1 2 3\n", "skipped 1 line of points");
+  check_told("m.obj", points + "call other.obj\nf 1 2 3\n",
+             "skipped 1 line of calls of other files or programs");
+  check_told("m.obj", points + "bzp 1 2 3\nf 1 2 3\nsurf 0 1 0 1 1 2 3\n",
+             "skipped 2 lines of curves or surfaces that are no polygons");
+  CHECK(warnings_of("m.obj", "mtllib a\no b\ng c\ns 1\n" + points + "vt 0 0\nf 1 2 3\n").empty());
   check_told("m.obj", points + "f 1 2 3\nfacet 1\n\x01\n",
              "skipped 2 lines unknown to OBJ, the first of them line 5, which starts with 'facet'");
   check_told("m.obj", points + "v 2 2 0\nf 1 2 3\nf 1 4 2 3\n",
