@@ -60,6 +60,7 @@ class PlyReader {
         read_vertices(element);
       } else if (!holds_triangles(element)) {
         skip_element(element);
+        note_left_out(element);
       } else if (vertices_seen_) {
         read_triangles(element);
       } else {
@@ -69,6 +70,9 @@ class PlyReader {
     }
     if (!vertices_seen_) {
       fail_format(path_, "the PLY header has no element 'vertex'");
+    }
+    if (const std::string tail = values_->tail(); !tail.empty()) {
+      add_warning(result_.warnings, path_, tail);
     }
     for (const auto& [element, values] : postponed_) {
       values_.emplace(values);
@@ -170,6 +174,10 @@ class PlyReader {
                                          [](double value) { return std::isfinite(value); });
       if (is_new && is_finite) {
         kept.push_back(std::move(one));
+      } else {
+        add_warning(result_.warnings, path_,
+                    "scalars " + in_quotes(one.name) +
+                        (is_new ? " that are not finite left out" : " left out, a second time"));
       }
     }
     scalars() = std::move(kept);
@@ -312,6 +320,14 @@ class PlyReader {
         skip_property(property);
       }
       values_->end_item();
+    }
+  }
+
+  void note_left_out(const PlyElement& element) {
+    if (element.count > 0) {
+      add_warning(result_.warnings, path_,
+                  "element " + in_quotes(element.name) + " left out, " +
+                      count_of(static_cast<std::uint64_t>(element.count), "item"));
     }
   }
 

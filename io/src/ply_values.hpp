@@ -55,6 +55,12 @@ class TextValues {
       lines_.fail("a value is missing");
     }
   }
+  /// What follows the last item, in words; empty if nothing does.
+  std::string tail() {
+    return lines_.next_line() ? "what follows the data, from line " +
+                                    std::to_string(lines_.line_number()) + " on, was left out"
+                              : std::string();
+  }
   static constexpr std::int64_t smallest_size(PlyType) { return 2; }  // a digit and a space
 
  private:
@@ -82,6 +88,10 @@ class BinaryValues {
   double scalar(PlyType type) { return take<double>(type); }
   std::int64_t integer(PlyType type) { return take<std::int64_t>(type); }
   void skip(PlyType type) { (void)bytes(static_cast<std::size_t>(size_of(type))); }
+  [[nodiscard]] std::string tail() const {
+    return at_ < text_.size() ? count_of(text_.size() - at_, "byte") + " behind the data left out"
+                              : std::string();
+  }
   static constexpr std::int64_t smallest_size(PlyType type) { return size_of(type); }
 
  private:

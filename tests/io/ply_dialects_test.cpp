@@ -136,8 +136,8 @@ TEST_CASE("ply with faces before vertices is read") {
   const std::string faces = "element face 6\nproperty list uchar int vertex_indices\n";
   const std::string vertices = "element vertex 8\n" + kXyz;
   check_silent_cube(header("ascii", faces + vertices) + face_lines() + vertex_lines());
-  check_silent_cube(header("ascii", faces + "element edge 1\nproperty int a\n" + vertices) +
-                    face_lines() + "7\n" + vertex_lines());
+  check_cube(read(header("ascii", faces + "element edge 1\nproperty int a\n" + vertices) +
+                  face_lines() + "7\n" + vertex_lines()));
   const std::string text = binary_cube<std::uint8_t, std::int32_t>("uchar int", false);
   const std::string data = text.substr(text.find("end_header\n") + 11);
   check_silent_cube(header("binary_little_endian", faces + vertices) + data.substr(8 * 12) +
@@ -224,6 +224,57 @@ TEST_CASE("ply normals that are no numbers are left out with a warning") {
   CHECK(mesh.mesh.positions[0] == difmesh::Vec3{1, 2, 3});
   CHECK(mesh.mesh.normals.empty());
   CHECK(mesh.warnings.size() == 1);
+}
+
+TEST_CASE("ply elements and bytes that are left out are told") {
+  const TempFolder folder;
+  const auto warnings_of = [&](const std::string& bytes) {
+    const MeshFile found = difmesh::read_mesh_file(folder.file("m.ply", bytes));
+    check_cube(found);
+    return found.warnings;
+  };
+  const std::string name = "'" + (folder / "m.ply").string() + "': ";
+  const std::string elements =
+      "element vertex 8\n" + kXyz + "element face 6\nproperty list uchar int vertex_indices\n";
+  const std::string text = header("ascii", elements) + vertex_lines() + face_lines();
+  using Texts = std::vector<std::string>;
+  CHECK(warnings_of(text + "\n\n").empty());
+  CHECK(warnings_of(text + "\n3 0 1 2\n") ==
+        Texts{name + "what follows the data, from line 25 on, was left out."});
+  const std::string edges = "property int vertex1\nproperty int vertex2\n";
+  CHECK(warnings_of(header("ascii", elements + "element edge 2\n" + edges) + vertex_lines() +
+                    face_lines() + "0 1\n2 3\n") ==
+        Texts{name + "element 'edge' left out, 2 items."});
+  CHECK(warnings_of(header("ascii", elements + "element edge 0\n" + edges) + vertex_lines() +
+                    face_lines())
+            .empty());
+
+  std::string binary = header("binary_little_endian", elements);
+  for (int v = 0; v < 8; ++v) {
+    for (int axis = 0; axis < 3; ++axis) {
+      binary += bytes_of(static_cast<float>(coordinate(v, axis)));
+    }
+  }
+  for (const std::vector<int>& side : kSides) {
+    binary += "\4";
+    for (const int corner : side) {
+      binary += bytes_of(corner);
+    }
+  }
+  CHECK(warnings_of(binary).empty());
+  CHECK(warnings_of(binary + "\n") == Texts{name + "1 byte behind the data left out."});
+  CHECK(warnings_of(binary + "xxxx") == Texts{name + "4 bytes behind the data left out."});
+}
+
+TEST_CASE("ply scalars that are no numbers or come twice are told") {
+  const TempFolder folder;
+  const std::string elements = "element vertex 8\n" + kXyz + "property float heat\n" +
+                               "element face 6\nproperty list uchar int vertex_indices\n";
+  const MeshFile found = difmesh::read_mesh_file(
+      folder.file("m.ply", header("ascii", elements) + vertex_lines(" nan") + face_lines()));
+  CHECK(found.mesh.scalars.empty());
+  REQUIRE(found.warnings.size() == 1);
+  CHECK(found.warnings[0].find("scalars 'heat' that are not finite left out") != std::string::npos);
 }
 
 TEST_CASE("ply strips become triangles that face the same way") {
