@@ -81,21 +81,19 @@ struct OffLayout {
 };
 
 /// What Geomview reads, and more than it does where that is in use. A word can be a colour in one
-/// and a coordinate in another, so all of the file must fit; the last one is for messages, and for
-/// files with something behind the faces.
-constexpr std::array<OffLayout, 4> kLayouts{{{false, true, true, true},
+/// and a coordinate in another, so all of the file must fit; the last two are for files with something
+/// behind the faces, which across lines must be more faces.
+constexpr std::array<OffLayout, 5> kLayouts{{{false, true, true, true},
                                              {true, false, true, true},
                                              {true, false, false, true},
-                                             {false, true, true, false}}};
+                                             {false, true, true, false},
+                                             {true, false, false, false}}};
 
 /// Reads Geomview's OFF as text: a keyword, which may be missing, three counts, vertices and faces.
 class OffReader {
  public:
   OffReader(const std::filesystem::path& path, std::string_view text, const OffLayout& layout)
-      : text_size_(static_cast<std::int64_t>(text.size())),
-        path_(path),
-        layout_(layout),
-        lines_(path, text, {.comment = '#'}) {}
+      : path_(path), text_(text), layout_(layout), lines_(path, text, {.comment = '#'}) {}
 
   MeshFile read() {
     if (!lines_.next_line()) {
@@ -106,9 +104,24 @@ class OffReader {
     const std::int64_t faces = count("the number of faces");
     skip_edges();
     check_counts(vertices, faces);
+    wanted_ = vertices + faces;
     read_vertices(vertices);
     read_faces(faces);
-    return finish();
+    return finish(faces);
+  }
+
+  /// How well the layout suits a file that read() has refused, compared with other layouts: by how
+  /// much was read of it. Lines decide where there are enough of them for all items; where half of
+  /// them is there, the file has more likely been cut off than been written across lines.
+  [[nodiscard]] std::size_t suitability() const {
+    if (!layout_.across_lines && !lacks_lines_) {
+      return text_.size() + 1;
+    }
+    if (lacks_lines_) {
+      return !layout_.across_lines && 2 * items_ >= wanted_ ? text_.size() - 1 : 0;
+    }
+    const std::size_t reached = lines_.offset() - lines_.rest().size();
+    return trimmed(text_.substr(reached)).empty() ? text_.size() : reached;
   }
 
  private:
@@ -141,10 +154,11 @@ class OffReader {
       throw Error(ErrorCode::too_large, quoted(path_) + ": " + std::to_string(vertices) +
                                             " vertices are more than 32-bit indices can name");
     }
-    if (vertices > text_size_ / 6 || faces > text_size_ / 2) {
+    const auto size = static_cast<std::int64_t>(text_.size());
+    if (vertices > size / 6 || faces > size / 2) {
       fail_format(path_, "truncated: " + std::to_string(vertices) + " vertices and " +
-                             std::to_string(faces) + " faces wanted in " +
-                             std::to_string(text_size_) + " bytes");
+                             std::to_string(faces) + " faces wanted in " + std::to_string(size) +
+                             " bytes");
     }
   }
 
@@ -152,9 +166,11 @@ class OffReader {
   void begin_item(const char* what, std::int64_t n, std::int64_t wanted) {
     const bool goes_on = layout_.across_lines && !trimmed(lines_.rest()).empty();
     if (!goes_on && !lines_.next_line()) {
+      lacks_lines_ = layout_.face_extras;
       fail_format(path_, std::string("truncated: ") + std::to_string(wanted) + " " + what +
                              " wanted, " + std::to_string(n) + " found");
     }
+    ++items_;
   }
 
   void end_item(bool with_extras) {
@@ -164,19 +180,19 @@ class OffReader {
   }
 
   /// To the next word, in the next line if that may be.
-  void seek() {
-    if (layout_.across_lines && trimmed(lines_.rest()).empty()) {
-      (void)lines_.next_line();
+  void seek(const char* what) {
+    if (layout_.across_lines && trimmed(lines_.rest()).empty() && !lines_.next_line()) {
+      lines_.fail(std::string("truncated: ") + what + " is missing");
     }
   }
 
   double number(const char* what) {
-    seek();
+    seek(what);
     return lines_.any_number(what);
   }
 
   std::int64_t integer(const char* what) {
-    seek();
+    seek(what);
     return lines_.integer(what);
   }
 
@@ -206,47 +222,59 @@ class OffReader {
 
   void read_faces(std::int64_t wanted) {
     mesh_.triangles.reserve(static_cast<std::size_t>(wanted));
-    std::vector<std::uint32_t> corners;
     for (std::int64_t n = 0; n < wanted; ++n) {
       begin_item("faces", n, wanted);
-      const std::int64_t valence = lines_.integer("the number of corners");
-      if (valence < 3) {
-        lines_.fail("a face with " + std::to_string(valence) + " corners");
-      }
-      corners.clear();
-      for (std::int64_t c = 0; c < valence; ++c) {
-        const std::int64_t v = integer("a corner of the face");
-        if (v < 0 || v >= static_cast<std::int64_t>(mesh_.positions.size())) {
-          lines_.fail("face " + std::to_string(n) + " refers to vertex " + std::to_string(v) +
-                      " of " + std::to_string(mesh_.positions.size()));
-        }
-        corners.push_back(static_cast<std::uint32_t>(v));
-      }
-      polygons_.add(mesh_.triangles, corners);
+      read_face(n);
+      polygons_.add(mesh_.triangles, corners_);
       end_item(layout_.face_extras);
     }
   }
 
-  MeshFile finish() {
-    const bool has_more = !trimmed(lines_.rest()).empty() || lines_.next_line();
-    if (layout_.whole && has_more) {
+  void read_face(std::int64_t n) {
+    const std::int64_t valence = lines_.integer("the number of corners");
+    if (valence < 3) {
+      lines_.fail("a face with " + std::to_string(valence) + " corners");
+    }
+    corners_.clear();
+    for (std::int64_t c = 0; c < valence; ++c) {
+      const std::int64_t v = integer("a corner of the face");
+      if (v < 0 || v >= static_cast<std::int64_t>(mesh_.positions.size())) {
+        lines_.fail("face " + std::to_string(n) + " refers to vertex " + std::to_string(v) +
+                    " of " + std::to_string(mesh_.positions.size()));
+      }
+      corners_.push_back(static_cast<std::uint32_t>(v));
+    }
+  }
+
+  bool has_more() { return !trimmed(lines_.rest()).empty() || lines_.next_line(); }
+
+  MeshFile finish(std::int64_t faces) {
+    const bool is_followed = has_more();
+    const std::int64_t line = lines_.line_number();
+    if (layout_.whole && is_followed) {
       lines_.fail("more than the faces");
     }
+    while (layout_.across_lines && has_more()) {
+      read_face(++faces);
+    }
     MeshFile surface = finished(path_, std::move(mesh_), polygons_, not_finite_);
-    if (has_more) {
+    if (is_followed) {
       add_warning(surface.warnings, path_,
-                  "skipped what follows the last face, from line " +
-                      std::to_string(lines_.line_number()) + " on");
+                  "skipped what follows the last face, from line " + std::to_string(line) + " on");
     }
     return surface;
   }
 
-  std::int64_t text_size_;
   const std::filesystem::path& path_;
+  std::string_view text_;
   const OffLayout& layout_;
   Scanner lines_;
   OffKind kind_;
+  std::int64_t wanted_ = 0;  ///< vertices and faces
+  std::int64_t items_ = 0;   ///< of them begun
+  bool lacks_lines_ = false;
   Mesh mesh_;
+  std::vector<std::uint32_t> corners_;  ///< of the latest face
   Polygons polygons_;
   std::vector<VertexLine> not_finite_;
 };
@@ -343,6 +371,27 @@ class BinaryOffReader {
   std::vector<std::uint32_t> corners_;
 };
 
+/// By the first layout that fits; the message of a refusal is that of the layout that suits best.
+MeshFile read_text(const std::filesystem::path& path, std::string_view text) {
+  std::optional<Error> refusal;
+  std::size_t best = 0;
+  for (const OffLayout& layout : kLayouts) {
+    OffReader reader(path, text, layout);
+    try {
+      return reader.read();
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::file_format) {
+        throw;
+      }
+      if (!refusal || reader.suitability() >= best) {
+        refusal = error;
+        best = reader.suitability();
+      }
+    }
+  }
+  throw Error(*refusal);
+}
+
 MeshFile read_off(const InputFile& file) {
   const Array<char> bytes = file.read_text(0, file.size());
   const std::string_view text = plain_text(file.path(), {bytes.data(), bytes.size()});
@@ -353,16 +402,7 @@ MeshFile read_off(const InputFile& file) {
       return BinaryOffReader(file.path(), text.substr(header.offset()), kind).read();
     }
   }
-  for (const OffLayout& layout : kLayouts) {
-    try {
-      return OffReader(file.path(), text, layout).read();
-    } catch (const Error& error) {
-      if (error.code() != ErrorCode::file_format || &layout == &kLayouts.back()) {
-        throw;
-      }
-    }
-  }
-  return {};
+  return read_text(file.path(), text);
 }
 
 class OffEncoder : public MeshEncoder {

@@ -262,6 +262,26 @@ TEST_CASE("obj and off: what is left out is told") {
              "triangle 1");
   check_told("m.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n{ appearance }\n",
              "skipped what follows the last face, from line 7 on");
+  check_told("m.off", "OFF\n3 1 0\n0 0 0 1 0 0\n0 1 0 3 0 1 2\n3 0 2\n1 3 0 1 2\n",
+             "skipped what follows the last face, from line 5 on");
+}
+
+TEST_CASE("off: messages are those of the layout that the file has") {
+  const std::string corners = "OFF\n3 2 0\n0 0 0 1 0 0 0 1 0 ";
+  check_refused("m.off", corners + "3 0 1 2 3 1",
+                {"line 3: truncated: a corner of the face is missing"});
+  check_refused("m.off", corners + "3 0 1 2", {"2 faces wanted, 1 found"});
+  check_refused("m.off", corners + "3 0 1 7 3 0 1 2", {"line 3: face 0 refers to vertex 7 of 3"});
+  check_refused("m.off", corners + "3 0 1 2 3 0 1 2 2 0 1", {"line 3: a face with 2 corners"});
+  check_refused("m.off", "OFF\n3 1 0\n0 0 0 1 0 0\n0 1 0\n3 0 1 9\n",
+                {"line 5: face 0 refers to vertex 9 of 3"});
+  const std::string lines = "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n";
+  check_refused("m.off", lines + "3 0 1 2\n", {"2 faces wanted, 1 found"});
+  check_refused("m.off", lines + "3 0 1 2\n3 0 1\n", {"line 7: a corner of the face is missing"});
+  check_refused("m.off", "OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n",
+                {"line 4: a coordinate is missing"});
+  check_refused("m.off", "COFF\n3 2 0\n0 0 0 9 9 9 9\n1 0 0 9 9 9 9\n0 1 0 9 9 9 9\n3 0 1 2\n",
+                {"2 faces wanted, 1 found"});
 }
 
 TEST_CASE("obj and off: huge faces that are not convex are cut") {
