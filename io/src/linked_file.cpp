@@ -67,6 +67,9 @@ std::string why_outside(const std::filesystem::path& name) {
 
 InputFile open_linked(const std::filesystem::path& path, const std::filesystem::path& name,
                       bool outside) {
+  if (name.native().find('\0') != std::string::npos) {
+    fail_format(path, "it names the file " + quoted(name) + ", and no file has a zero in its name");
+  }
   const std::filesystem::path parent = path.parent_path();
   if (outside) {
     return InputFile(parent / name);

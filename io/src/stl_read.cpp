@@ -216,16 +216,35 @@ class TextReader {
     }
   }
 
-  /// Up to the end of the line, or to the first facet where a file has no lines.
+  /// Up to the end of the line, or to the first facet where a file has no lines. A name may hold
+  /// words of STL too, but not all of a facet.
   void skip_name() {
     while (!lines_.rest().empty()) {
       const std::string_view rest = trimmed(lines_.rest());
       if (lower_case(rest.substr(0, 6)) == "facet " &&
           lower_case(trimmed(rest.substr(6)).substr(0, 6)) == "normal") {
+        if (!holds_vertex(rest)) {
+          lines_.drop_rest();
+        }
         return;
       }
       (void)lines_.word();
     }
+  }
+
+  static bool holds_vertex(std::string_view text) {
+    constexpr std::string_view small = "vertex";
+    constexpr std::string_view large = "VERTEX";
+    for (std::size_t at = 0; at + small.size() <= text.size(); ++at) {
+      std::size_t n = 0;
+      while (n < small.size() && (text[at + n] == small[n] || text[at + n] == large[n])) {
+        ++n;
+      }
+      if (n == small.size()) {
+        return true;
+      }
+    }
+    return false;
   }
 
   void finish() {

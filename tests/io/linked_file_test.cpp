@@ -93,6 +93,18 @@ TEST_CASE("linked files: outside the folder they are read only where that is all
   check_outside(place.header(".."));
 }
 
+TEST_CASE("linked files: a name with a zero in it names no file") {
+  const Place place;
+  for (const std::string& name :
+       {std::string("inside.raw\0", 11), std::string("inside.raw\0x", 12)}) {
+    for (const bool outside : {false, true}) {
+      const auto path = place.header(name);
+      check_error([&] { (void)difmesh::read_field(path, {.outside_files = outside}); },
+                  ErrorCode::file_format, {"f.nhdr", "a zero"});
+    }
+  }
+}
+
 TEST_CASE("linked files: a folder whose name begins with two dots is no way up") {
   const Place place;
   std::filesystem::create_directory(place.folder / "inner/..data");

@@ -144,6 +144,14 @@ TEST_CASE("stl text is read however its words are set") {
   check_silent_cube("\xEF\xBB\xBF" + stl({}));
 }
 
+TEST_CASE("names of solids may hold the words of stl") {
+  for (const std::string name : {"facet normal outer loop", "Facet Normal", "facet normal 0 0 1",
+                                 "vertex facet", "endfacet outer loop"}) {
+    CAPTURE(name);
+    check_silent_cube(stl({.start = "solid " + name + "\n", .end = "endsolid " + name + "\n"}));
+  }
+}
+
 TEST_CASE("stl text is read whatever ends its lines") {
   check_silent_cube(replaced(stl({}), "\n", "\r\n"));
   check_silent_cube(replaced(stl({}), "\n", "\r"));
