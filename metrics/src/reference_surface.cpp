@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "mesh/closed_surface.hpp"
@@ -93,7 +94,13 @@ class ReferenceProbe final : public DistanceProbe {
     const TriangleTree::Nearest nearest = tree_.nearest(in_units, guess_);
     guess_ = nearest.triangle;
     const double distance = std::sqrt(nearest.distance2) / scale_;
-    return with_sign_ && is_inside(in_units, nearest) ? -distance : distance;
+    if (!with_sign_) {
+      return distance;
+    }
+    const std::optional<Vec3> closer = tree_.from_nearby(in_units);
+    const bool inside =
+        closer ? is_inside(*closer, tree_.nearest(*closer, guess_)) : is_inside(in_units, nearest);
+    return inside ? -distance : distance;
   }
 
  private:

@@ -293,12 +293,34 @@ TEST_CASE("surfaces closer together than float32 can tell are told apart") {
 TEST_CASE("a mesh many sizes away from its reference is measured all the same") {
   Random random(17);
   const TriangleMesh soup = random_soup(random, 200);
-  for (const double away : {1e3, 1e7, 1e12}) {
+  for (const double away : {1e2, 1e3, 1.3e3, 5e3, 1e5, 1e7, 1e9, 1e12, 1e14, 1e20, 1e60, 1e130}) {
     CAPTURE(away);
-    const TriangleMesh mesh = as_mesh(random_points(random, 30, 1.0, {away, 2.0 * away, -away}));
+    const TriangleMesh mesh =
+        as_mesh(random_points(random, 30, 0.1 * away, {away, 2.0 * away, -away}));
+    const std::vector<double> expected = brute_force_distances(mesh, soup);
     const Distance found = distance_of(mesh, soup, one_way()).to_reference;
-    const DistanceStatistics expected = statistics_of(brute_force_distances(mesh, soup));
-    CHECK(difference(found.vertices, expected) < 1e-15 * away);
+    CHECK(difference(found.vertices, statistics_of(expected)) < 1e-15 * away);
+  }
+}
+
+TEST_CASE("large meshes far apart are measured at once and with the right sign") {
+  Random random(29);
+  for (const double away : {3e4, 1e8, 1e11, 1e13}) {
+    CAPTURE(away);
+    // Triangle by triangle the large ones would be some 4e9 distances.
+    const int levels = away == 1e8 ? 4 + kEffort / 6 : 3;
+    const TriangleMesh near = star(random, levels, 0.2);
+    const Vec3 shift = scaled({0.48, -0.6, 0.64}, away);
+    TriangleMesh far = icosphere(levels);
+    for (Vec3& p : far.positions) {
+      p = add(p, shift);
+    }
+    const MeshDistance found = distance_of(far, near);
+    for (const Distance& way : {found.to_reference, found.from_reference}) {
+      CHECK(way.has_sign);
+      CHECK(way.vertices.lowest > away - 2.3);
+      CHECK(way.vertices.highest < away + 2.3);
+    }
   }
 }
 

@@ -120,9 +120,9 @@ struct MeshDistance {
 /// \throw Error as above, for either mesh (a reference measured one way may have no area);
 ///   too_large for 2^32 - 1 triangles
 /// Cost: a search per vertex and four per triangle, and more for large triangles; each takes 1 µs
-/// where the surfaces are close, up to 5 µs where they are far apart, and more for points many
-/// times the reference's size away, between whose triangles float32 cannot tell. Memory: 8 bytes
-/// per vertex and some 100 per triangle. Thread safety: concurrent calls are safe.
+/// where the surfaces are close, up to 5 µs where they are far apart, and more where many triangles
+/// are as close to within a thousandth of the reference's size: a plane seen from afar. Memory: 8
+/// bytes per vertex and some 100 per triangle. Thread safety: concurrent calls are safe.
 /// Source: tree: Wald et al., Embree, ACM Trans. Graph. 33 (2014) 143; sign: Bærentzen, Aanæs, IEEE
 /// TVCG 11 (2005) 243; sampling: Cignoni, Rocchini, Scopigno, Metro, Comput. Graph. Forum 17 (1998)
 /// 167.
