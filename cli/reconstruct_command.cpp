@@ -390,9 +390,11 @@ void add_method_options(CLI::App& command, Request& request) {
           "six: xlo,xhi,ylo,yhi,zlo,zhi\n"
           "  open      unknown: the surface ends at the side (default)\n"
           "  mirror    its mirror image: the surface meets the side at right angles\n"
-          "  periodic  the opposite side again; both sides of an axis together\n"
+          "  periodic  the opposite side again; both sides of an axis together. The\n"
+          "            surface spans one period, from the first cell centre on\n"
           "  empty     nothing: the surface is closed there\n"
-          "  full      material: the surface of the empty part is closed there")
+          "  full      material: the surface of the empty part is closed there,\n"
+          "            but for edges of the domain where it meets an empty side")
       ->option_text("SIDES");
 }
 

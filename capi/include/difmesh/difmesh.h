@@ -189,7 +189,7 @@ enum {
   DIF_SIDE_DEFAULT = 0,  /* OPEN */
   DIF_SIDE_OPEN = 1,     /* nothing is known; the surface runs on to the domain face */
   DIF_SIDE_MIRROR = 2,   /* a symmetry plane */
-  DIF_SIDE_PERIODIC = 3, /* wraps round, both sides of an axis together */
+  DIF_SIDE_PERIODIC = 3, /* wraps round, both sides of an axis together; the surface spans a period */
   DIF_SIDE_EMPTY = 4,    /* fraction 0: closes the surface */
   DIF_SIDE_FULL = 5      /* fraction 1: closes the surface of the complement */
 };
@@ -218,8 +218,12 @@ typedef struct dif_mesh dif_mesh;
 
 /* Reconstructs the surface of a field: marching cubes on the grid of cell centres at 1/2, with the
  * vertices where `placement` puts them. The mesh is manifold and free of self-intersections for
- * every field, and ends on `open`, `mirror` and `periodic` sides only. An empty field gives an empty
- * mesh. OUT_OF_MEMORY comes before the pass over the field where that is known already.
+ * every field. It ends only on `open` and `mirror` sides, at the ends of the period of `periodic` axes,
+ * which are the first cell centre and its image, and along edges of the domain where an `empty` side
+ * meets a `full` one. An empty field gives an empty mesh. Where DIF_UINT8 or DIF_UINT16 hardly hold
+ * shares of 255 or 65535, dif_mesh_warning() says so and names the highest value: in masks and
+ * segmentations no cell is full, and none is half full or there are at most 16 different values.
+ * OUT_OF_MEMORY comes before the pass over the field where that is known already.
  * Errors: INVALID_ARGUMENT, INVALID_GRID, INVALID_VALUE, STRUCT, TOO_LARGE, OUT_OF_MEMORY, CANCELLED.
  * Cost: one pass over the field, then O(interfacial cells). Since 0.1. */
 DIF_API dif_status dif_reconstruct(const dif_field* field, const dif_options* options,

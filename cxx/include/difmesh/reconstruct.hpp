@@ -28,6 +28,8 @@ struct Reconstruction {
 ///   ends there. With `plic` it follows the planes of the last cells.
 /// - `periodic` axes: the mesh spans one period, from the first cell centre to its image; boundary
 ///   loops are equal but for one period, added to the coordinate.
+/// - `mirror` sides: the mesh ends there too, at right angles. It ends nowhere else, but for edges of
+///   the domain where an `empty` side meets a `full` one.
 /// \param field cells in memory; dims must equal grid.dims
 /// \throw Error invalid_argument (field or options), invalid_grid, invalid_value (first bad cell in
 ///   the order z, y, x is named), too_large, cancelled; OutOfMemory, early where that is known
