@@ -78,6 +78,7 @@ template <class Value, std::size_t n>
 /// What the library takes; see options.hpp and mollify.hpp.
 inline constexpr Range kPurityToleranceRange{0.0, 0.1};
 inline constexpr Range kOvershootBoundRange{0.0, 1.0};
+inline constexpr Range kClearanceRange{1e-13, 0.25};
 inline constexpr Range kMollifyRange{1.0, 8.0};
 
 /// Extensions that the field files of difmesh::io have, in lower case.

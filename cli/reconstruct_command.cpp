@@ -104,6 +104,7 @@ Json options_json(const Request& request) {
           {"boundary", sides},
           {"purity_tolerance", options.purity_tolerance},
           {"overshoot_bound", options.overshoot_bound},
+          {"clearance", options.clearance},
           {"vertex_normals", options.vertex_normals},
           {"edge_ids", options.edge_ids},
           {"curvature", request.output.curvature},
@@ -440,6 +441,15 @@ void add_limit_options(CLI::App& command, Request& request) {
           "Fractions so far outside [0, 1] are clamped, farther ones are an\n"
           "error, 0 to 1. Default: 0.1")
       ->option_text("B");
+  command
+      .add_option_function<std::string>(
+          "--clearance",
+          [&options](const std::string& text) {
+            options.clearance = parse_number("--clearance", text, kClearanceRange);
+          },
+          "Of vertices from the ends of their edges, over the edge, 1e-13 to\n"
+          "0.25. Default: 1e-12")
+      ->option_text("C");
   add_threads_option(command, "The mesh does", options.threads);
 }
 

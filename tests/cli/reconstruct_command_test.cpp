@@ -367,6 +367,7 @@ TEST_CASE("the report holds what the library reports") {
         Words{"periodic", "periodic", "open", "mirror", "empty", "open"});
   CHECK(report["options"]["purity_tolerance"] == 1e-6);
   CHECK(report["options"]["overshoot_bound"] == 0.1);
+  CHECK(report["options"]["clearance"] == 1e-12);
   CHECK(report["options"]["vertex_normals"] == false);
   CHECK(report["options"]["threads"] == 0);
   CHECK(report["mesh"]["path"] == place.mesh);

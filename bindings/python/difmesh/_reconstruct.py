@@ -122,6 +122,7 @@ def reconstruct_block(
     vertex_normals: bool = False,
     purity_tolerance: Optional[float] = None,
     overshoot_bound: Optional[float] = None,
+    clearance: Optional[float] = None,
     threads: int = 0,
     progress: Progress = None,
 ) -> Mesh:
@@ -142,6 +143,7 @@ def reconstruct_block(
         vertex_normals=bool(vertex_normals),
         purity_tolerance=purity_tolerance,
         overshoot_bound=overshoot_bound,
+        clearance=clearance,
         threads=threads,
     )
     block = DifBlock(

@@ -69,7 +69,9 @@ def smooth(
     pass_band: Optional[float] = None,
     boundary: str = "stay",
     time: Optional[float] = None,
+    residual: Optional[float] = None,
     tolerance: Optional[float] = None,
+    clearance: Optional[float] = None,
     dims: Union[int, Sequence[int], npt.NDArray[Any], None] = None,
     spacing: Triple = 1.0,
     origin: Triple = 0.0,
@@ -84,10 +86,11 @@ def smooth(
         "taubin": to the mean and back by more; hardly shrinks. `factor` 0.6307; `pass_band`, the
             frequency below which nothing is damped, 0.1; `steps` 15.
         "flow": along the normal by the mean curvature, implicit; shrinks. `time` of each step, in
-            the square of the unit of the points, 1; `steps` 1.
-        "constrained": no cell's fraction changes by more than `tolerance`, 0.01; `steps` 3. For
-            closed meshes with edge_ids; dims, spacing and origin of the grid must be those of the
-            reconstruction.
+            the square of the unit of the points, 1; `residual` of the linear systems, over the
+            first, [1e-14, 0.1], 1e-10; `steps` 1.
+        "constrained": no cell's fraction changes by more than `tolerance`, 0.01; `clearance` as for
+            reconstruct(); `steps` 3. For closed meshes with edge_ids; dims, spacing and origin of
+            the grid must be those of the reconstruction.
     boundary: of "laplacian" and "taubin": whether vertices on boundaries "stay", or see their
         neighbours "along" the boundary only.
     threads, progress: as for reconstruct().
@@ -107,7 +110,13 @@ def smooth(
     if factor is not None:
         options.factor = factor
         setattr(options, "lambda", factor)
-    for name, value in (("pass_band", pass_band), ("time", time), ("tolerance", tolerance)):
+    for name, value in (
+        ("pass_band", pass_band),
+        ("time", time),
+        ("residual", residual),
+        ("tolerance", tolerance),
+        ("clearance", clearance),
+    ):
         if value is not None:
             setattr(options, name, value)
     grid = None if dims is None else byref(grid_struct(dims, spacing, origin))

@@ -1,6 +1,7 @@
 """How the library is found, what ctypes makes of it, errors, and the package itself."""
 
 import ctypes
+import inspect
 import os
 import pickle
 import re
@@ -227,6 +228,34 @@ class Module(unittest.TestCase):
             self.assertTrue(hasattr(difmesh, name), name)
             if callable(getattr(difmesh, name)):
                 self.assertTrue(getattr(difmesh, name).__doc__.strip(), name)
+
+
+class Options(unittest.TestCase):
+    def test_functions_take_all_options_of_their_structs(self):
+        other_names = {"type": "dtype", "label_count": "labels", "lambda": "factor"}
+        for function, struct, without in (
+            (difmesh.reconstruct, _structs.DifOptions, ()),
+            (difmesh.reconstruct_block, _structs.DifOptions, ("edge_ids",)),  # always
+            (difmesh.curvature, _structs.DifCurvatureOptions, ()),
+            (difmesh.smooth, _structs.DifSmoothingOptions, ()),
+            (difmesh.mollify, _structs.DifMollifyOptions, ()),
+            (difmesh.distance, _structs.DifDistanceOptions, ()),
+            (difmesh.distance_both_ways, _structs.DifDistanceOptions, ()),
+            (difmesh.sample_function, _structs.DifFunctionOptions, ()),
+            (difmesh.sample_shape, _structs.DifFunctionOptions, ("gradient",)),  # has its own
+            (difmesh.sample_mesh, _structs.DifTriangleOptions, ()),
+            (difmesh.read_mesh, _structs.DifMeshReadOptions, ()),
+            (difmesh.read_field, _structs.DifFieldReadOptions, ()),
+            (difmesh.write_field, _structs.DifFieldWriteOptions, ()),
+        ):
+            parameters = inspect.signature(function).parameters
+            names = [name for name, _ in struct._fields_]
+            wanted = {
+                other_names.get(name, name.removeprefix("has_"))
+                for name in names
+                if not name.startswith(("struct_size", "reserved")) and not name.endswith("_user")
+            }
+            self.assertEqual(wanted - set(parameters) - set(without), set(), function.__name__)
 
 
 if __name__ == "__main__":

@@ -101,8 +101,16 @@ class Reconstruct(unittest.TestCase):
                 difmesh.reconstruct(field, **options)
 
     def test_blocks_weld_to_the_whole(self):
+        plain = self.weld_blocks()
+        # Far from the ends of their edges, vertices lie elsewhere.
+        self.assertFalse(same_bits(self.weld_blocks(clearance=0.25), plain))
+        with self.assertRaises(difmesh.InvalidArgumentError):
+            difmesh.weld([difmesh.Mesh(*CUBE)], (11, 12, 13), spacing=0.5, origin=(1, 2, 3))
+
+    def weld_blocks(self, **options):
+        """The whole of two blocks, which is that of the field, bit for bit."""
         field = smooth_ball()
-        whole = difmesh.reconstruct(field, spacing=0.5, origin=(1, 2, 3), edge_ids=True)
+        whole = difmesh.reconstruct(field, spacing=0.5, origin=(1, 2, 3), edge_ids=True, **options)
         dims = np.array(field.shape[::-1])
         parts = []
         for low, high in ((0, 11), (11, dims[2])):
@@ -113,14 +121,13 @@ class Reconstruct(unittest.TestCase):
             parts.append(
                 difmesh.reconstruct_block(
                     cut, grid_dims=dims, offset=offset, dims=end - offset, ghost_low=ghost_low,
-                    ghost_high=ghost_high, spacing=0.5, origin=(1, 2, 3),
+                    ghost_high=ghost_high, spacing=0.5, origin=(1, 2, 3), **options,
                 )
             )  # fmt: skip
         self.assertTrue(all(len(part.faces) > 100 for part in parts))
         welded = difmesh.weld(parts, dims, spacing=0.5, origin=(1, 2, 3))
         self.assertTrue(same_bits(welded, whole))
-        with self.assertRaises(difmesh.InvalidArgumentError):
-            difmesh.weld([difmesh.Mesh(*CUBE)], dims, spacing=0.5, origin=(1, 2, 3))
+        return welded
 
 
 class Arrays(unittest.TestCase):

@@ -102,6 +102,12 @@ class Smooth(unittest.TestCase):
         self.assertTrue(same_bits(difmesh.smooth(mesh, "taubin", steps=15, threads=1), usual))
         for options in ({"steps": 3}, {"factor": 0.5}, {"pass_band": 0.2}):
             self.assertFalse(same_bits(difmesh.smooth(mesh, **options), usual), options)
+        flow = difmesh.smooth(mesh, "flow")
+        self.assertFalse(same_bits(difmesh.smooth(mesh, "flow", residual=0.05), flow))
+        with self.assertRaisesRegex(difmesh.InvalidArgumentError, "1e-14 to 0.1"):
+            difmesh.smooth(mesh, "flow", residual=1.0)
+        with self.assertRaisesRegex(difmesh.InvalidArgumentError, "clearance"):
+            difmesh.smooth(ball(edge_ids=True), "constrained", dims=CELLS, clearance=1.0)
         sheet = difmesh.Mesh(
             [[x, y, 0.1 * x * y + 0.3 * x * x * (y == 0)] for y in range(4) for x in range(4)],
             [[i, i + 1, i + 5] for i in (0, 1, 2, 4, 5, 6, 8, 9, 10)]
