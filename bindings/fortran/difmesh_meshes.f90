@@ -456,7 +456,9 @@ contains
   ! To .ply (double precision), .obj, .off, .stl, .glb, .gltf or .drc, by the extension or by `format`,
   ! such as 'ply'. `colour_by`, the name of scalars, and `name` are for glTF; all three come before
   ! those of the options. `report` tells what was written; if that fails it is as dif_init leaves it.
-  subroutine write_file(mesh, path, status, options, message, colour_by, name, report, format)
+  ! `warning` is what a user should know though the file is there, or ''; up to 1000 characters.
+  subroutine write_file(mesh, path, status, options, message, colour_by, name, report, format, &
+    warning)
     class(dif_mesh), intent(in) :: mesh
     character(*), intent(in) :: path
     integer(c_int32_t), intent(out) :: status
@@ -464,6 +466,8 @@ contains
     character(*), intent(inout), optional :: message
     character(*), intent(in), optional :: colour_by, name, format
     type(dif_mesh_write_report), intent(out), optional :: report
+    character(*), intent(out), optional :: warning
+    type(dif_mesh_write_report) :: facts
     type(dif_mesh_write_options) :: given
     character(kind=c_char), allocatable, target :: scalars(:), title(:), extension(:)
     call dif_init(given)
@@ -480,8 +484,12 @@ contains
       title = to_c(name)
       given%name = c_loc(title)
     end if
-    if (present(report)) call dif_init(report)
-    call finish(dif_mesh_write(mesh%handle, to_c(path), given, report), status, message)
+    call dif_init(facts)
+    call finish(dif_mesh_write(mesh%handle, to_c(path), given, facts), status, message)
+    if (present(report)) report = facts
+    if (.not. present(warning)) return
+    warning = ''
+    if (c_associated(facts%warning)) warning = from_c(facts%warning)
   end subroutine
 
   type(c_ptr) function c_handle(mesh)

@@ -397,6 +397,7 @@ module difmesh_types
     real(c_double) :: position_error = 0
     real(c_double) :: local_origin(3) = 0
     integer(c_int64_t) :: collapsed_triangles = 0
+    type(c_ptr) :: warning = c_null_ptr
   end type
 
   type, bind(c), public :: dif_mesh_read_options

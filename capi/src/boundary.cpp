@@ -20,13 +20,17 @@ Message& message() noexcept {
   return text;
 }
 
+Message& warning() noexcept {
+  thread_local Message text{};
+  return text;
+}
+
 Call*& running_call() noexcept {
   thread_local Call* call = nullptr;
   return call;
 }
 
-void note_text(const char* what) noexcept {
-  Message& text = message();
+void note_text(Message& text, const char* what) noexcept {
   std::size_t length = std::min(std::strlen(what), text.size() - 1);
   // Not in the middle of a character.
   while (what[length] != '\0' && length > 0 &&
@@ -40,9 +44,9 @@ void note_text(const char* what) noexcept {
 /// Notes a message, printable in one line; as it is where memory has run out.
 dif_status note(dif_status status, const char* what) noexcept {
   try {
-    note_text(printable(what).c_str());
+    note_text(message(), printable(what).c_str());
   } catch (const std::bad_alloc&) {
-    note_text(what);
+    note_text(message(), what);
   }
   return status;
 }
@@ -145,6 +149,14 @@ dif_status note_exception() noexcept {
   } catch (...) {
     return note(DIF_ERROR_INTERNAL, "an exception of unknown type");
   }
+}
+
+const char* kept_warning(const std::vector<std::string>& warnings) noexcept {
+  if (warnings.empty()) {
+    return nullptr;
+  }
+  note_text(warning(), warnings.front().c_str());
+  return warning().data();
 }
 
 }  // namespace difmesh::capi

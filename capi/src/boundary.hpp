@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "difmesh/difmesh.h"
 #include "difmesh/float_environment.hpp"
@@ -71,6 +72,9 @@ template <class Callback>
     return callback(arguments...);
   };
 }
+
+/// The first of the warnings, kept for the thread until the next one; NULL if there is none.
+[[nodiscard]] const char* kept_warning(const std::vector<std::string>& warnings) noexcept;
 
 /// Runs the body of an entry point.
 template <class Body>

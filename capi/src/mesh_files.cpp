@@ -87,6 +87,7 @@ dif_mesh_write_report to_report(const difmesh::MeshFileReport& report) {
   result.position_error = report.position_error;
   result.collapsed_triangles = report.collapsed_triangles;
   std::copy(report.local_origin.begin(), report.local_origin.end(), result.local_origin);
+  result.warning = capi::kept_warning(report.warnings);
   return result;
 }
 

@@ -36,12 +36,12 @@ MeshFileReport EncodedFile::finish() {
   for (std::size_t section = 0; section < encoder_->vertex_sections() + 2; ++section) {
     sections_.close(section);
   }
-  file_.commit();
-  MeshFileReport report{.bytes = file_.size(),
-                        .vertices = static_cast<std::int64_t>(counts_.vertices),
+  MeshFileReport report{.vertices = static_cast<std::int64_t>(counts_.vertices),
                         .triangles = static_cast<std::int64_t>(counts_.triangles),
                         .primitives = 1};
-  encoder_->complete(report);
+  encoder_->complete(report);  // which may run out of memory: before there is a file
+  file_.commit();
+  report.bytes = file_.size();
   return report;
 }
 

@@ -11,12 +11,17 @@
 #include "difmesh/error.hpp"
 #include "format_part.hpp"
 #include "mesh_check.hpp"
+#include "text.hpp"
+#include "warnings.hpp"
 
 namespace difmesh::detail {
 namespace {
 
 constexpr std::size_t kHeader = 80;
 constexpr std::size_t kRecord = 50;  // normal, three corners, two bytes of anything
+// Of the mean edge, by which coordinates may be off without a warning: as much as second-order
+// vertices are on coarse grids.
+constexpr double kCoarse = 0.01;
 // Readers take a file that starts with "solid" for text.
 constexpr std::string_view kTitle = "difmesh: binary STL";
 
@@ -105,9 +110,26 @@ class StlEncoder : public MeshEncoder {
     report.vertices = 3 * report.triangles;
     report.position_error = position_error_;
     report.collapsed_triangles = collapsed_triangles_;
+    warn(report);
   }
 
  private:
+  /// Of rounding that shows.
+  void warn(MeshFileReport& report) const {
+    const double edge =
+        edges_ / (3.0 * static_cast<double>(std::max<std::uint64_t>(1, triangles_)));
+    if (!(position_error_ > kCoarse * edge) && collapsed_triangles_ == 0) {
+      return;
+    }
+    std::string matter = "coordinates are off by up to " + to_text(position_error_) +
+                         " in float32, where edges are " + to_text(edge) + " long on average";
+    if (collapsed_triangles_ > 0) {
+      matter += ", and " + std::to_string(collapsed_triangles_) + " of " +
+                count_of(triangles_, "triangle") + " collapse";
+    }
+    add_warning(report.warnings, request_.path, matter + "; PLY, OBJ and OFF keep all digits");
+  }
+
   void check_count(std::uint64_t triangles) const {
     if (triangles > std::numeric_limits<std::int32_t>::max()) {
       fail_write(ErrorCode::too_large, request_.path,
@@ -124,6 +146,12 @@ class StlEncoder : public MeshEncoder {
         position_error_ = std::max(position_error_, std::abs(exact[c][axis] - rounded[c][axis]));
       }
     }
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Vec3& from = exact[c];
+      const Vec3& to = exact[(c + 1) % 3];
+      const Vec3 edge{to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+      edges_ += std::sqrt(edge[0] * edge[0] + edge[1] * edge[1] + edge[2] * edge[2]);
+    }
     collapsed_triangles_ += has_area(exact) && !has_area(rounded) ? 1 : 0;
   }
 
@@ -131,6 +159,7 @@ class StlEncoder : public MeshEncoder {
   Array<Vec3> positions_;  ///< so far; empty where the mesh comes as one portion
   std::uint64_t triangles_ = 0;
   double position_error_ = 0.0;
+  double edges_ = 0.0;  ///< their lengths together
   std::int64_t collapsed_triangles_ = 0;
 };
 

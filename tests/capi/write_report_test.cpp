@@ -222,3 +222,21 @@ TEST_CASE("what fails leaves the report as it was and no file") {
   CHECK(dif_mesh_write(mesh.get(), path.c_str(), nullptr, nullptr) == DIF_OK);
   CHECK(folder.names() == std::vector<std::string>{"m.ply"});
 }
+
+TEST_CASE("a report warns where float32 of STL spoils a mesh") {
+  const TempFolder folder;
+  const c::OwnedField blob = c::blob({12, 11, 10});
+  dif_field field = c::c_field(blob);
+  std::fill_n(field.spacing, 3, 0.01);
+  CHECK(write_reported(c::c_reconstruct(field), folder / "near.stl").warning == nullptr);
+  field.origin[0] = 5e5;
+  field.origin[1] = 5.4e6;
+  const auto mesh = c::c_reconstruct(field);
+  const dif_mesh_write_report report = write_reported(mesh, folder / "far.stl");
+  CHECK(report.collapsed_triangles > 0);
+  REQUIRE(report.warning != nullptr);
+  const std::string warning = report.warning;
+  CHECK(warning.find((folder / "far.stl").string()) != std::string::npos);
+  CHECK(warning.find(std::to_string(report.collapsed_triangles) + " of ") != std::string::npos);
+  CHECK(write_reported(mesh, folder / "far.ply").warning == nullptr);
+}

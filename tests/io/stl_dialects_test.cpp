@@ -236,7 +236,28 @@ TEST_CASE("stl tells which triangles float32 makes collapse") {
   // Two lose a corner, the one before the last is a line then, the last one had no area.
   CHECK(report.collapsed_triangles == 3);
   CHECK(report.position_error == 500000.012 - 500000.0);
+  const std::string wanted = "'" + (folder / "m.stl").string() + "': coordinates are off by up to ";
+  REQUIRE(report.warnings.size() == 1);
+  CHECK(report.warnings[0].find(wanted) == 0);
+  CHECK(report.warnings[0].find("and 3 of 6 triangles collapse; PLY,") != std::string::npos);
+  CHECK(difmesh::write_mesh(folder / "m.ply", mesh).warnings.empty());
   CHECK(difmesh::write_mesh(folder / "m.ply", mesh).collapsed_triangles == 0);
   const Measure back = difmesh::measure(difmesh::read_mesh(folder / "m.stl"));
   CHECK(back.degenerate_triangles == 4);
+}
+
+TEST_CASE("stl warns where float32 moves corners by more than a hundredth of an edge") {
+  const TempFolder folder;
+  difmesh::Mesh mesh;
+  mesh.triangles = {{0, 1, 2}};
+  // At 2^20 float32 rounds 1/16 away at most; edges have the lengths 4, 5 and 3 times `size`.
+  for (const double size : {0.25, 0.75, 0.8, 100.0}) {
+    const double off = 1048576.0 + 1.0 / 32.0;
+    mesh.positions = {{off, 0, 0}, {off, 4 * size, 0}, {off, 0, 3 * size}};
+    const difmesh::MeshFileReport report = difmesh::write_mesh(folder / "m.stl", mesh);
+    CHECK(report.position_error == 1.0 / 32.0);
+    CHECK(report.warnings.size() == (1.0 / 32.0 > 0.01 * 4.0 * size ? 1 : 0));
+  }
+  mesh.triangles.clear();
+  CHECK(difmesh::write_mesh(folder / "m.stl", mesh).warnings.empty());
 }

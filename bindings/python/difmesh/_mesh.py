@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from ctypes import byref, c_char_p, c_int64, c_void_p
 from dataclasses import dataclass, fields
 from typing import Any, Mapping, Optional, Sequence, Union
@@ -10,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._calls import Handle
-from ._errors import check, warn_of
+from ._errors import Warning, check, warn_of
 from ._library import defaults, library
 from ._memory import Path, address_of, from_address, path_bytes
 from ._structs import DifMeasure, DifMeshReadOptions, DifMeshWriteReport, DifReport
@@ -313,6 +314,8 @@ class Mesh:
                 mesh._handle.pointer, path_bytes(path), byref(options), byref(report)
             )
         )
+        if report.warning is not None:
+            warnings.warn(report.warning.decode(errors="replace"), Warning, stacklevel=2)
         result: WriteReport = to_dataclass(WriteReport, report)
         return result
 

@@ -321,6 +321,7 @@ class DifMeshWriteReport(Sized):
         ("position_error", c_double),
         ("local_origin", c_double * 3),
         ("collapsed_triangles", c_int64),
+        ("warning", c_char_p),
     ]
 
 

@@ -47,7 +47,7 @@
  * Strides count elements, not bytes, unless said otherwise.
  * Callbacks get the `user` pointer that was given with them first. They may call the library, but
  *   must not free what the running call uses.
- * Threads. The library has no global state that changes, but for one message per thread. Different
+ * Threads. The library has no global state that changes, but for two messages per thread. Different
  *   threads may call any functions at once, also with the same handles, as long as none of them
  *   changes or frees the handle. `threads` in options: at most so many, 0 for as many as the machine
  *   has; no result depends on it, to the last bit.
@@ -186,12 +186,13 @@ enum {
 
 /* What lies beyond a side of the domain. */
 enum {
-  DIF_SIDE_DEFAULT = 0,  /* OPEN */
-  DIF_SIDE_OPEN = 1,     /* nothing is known; the surface runs on to the domain face */
-  DIF_SIDE_MIRROR = 2,   /* a symmetry plane */
-  DIF_SIDE_PERIODIC = 3, /* wraps round, both sides of an axis together; the surface spans a period */
-  DIF_SIDE_EMPTY = 4,    /* fraction 0: closes the surface */
-  DIF_SIDE_FULL = 5      /* fraction 1: closes the surface of the complement */
+  DIF_SIDE_DEFAULT = 0, /* OPEN */
+  DIF_SIDE_OPEN = 1,    /* nothing is known; the surface runs on to the domain face */
+  DIF_SIDE_MIRROR = 2,  /* a symmetry plane */
+  DIF_SIDE_PERIODIC =
+      3,              /* wraps round, both sides of an axis together; the surface spans a period */
+  DIF_SIDE_EMPTY = 4, /* fraction 0: closes the surface */
+  DIF_SIDE_FULL = 5   /* fraction 1: closes the surface of the complement */
 };
 
 typedef struct dif_options {
@@ -801,7 +802,10 @@ typedef struct dif_mesh_write_options {
 DIF_API dif_status dif_mesh_write_options_init(dif_mesh_write_options* options,
                                                uint64_t struct_size);
 /* What became of a mesh in a file. Counts are those of the file: STL has three vertices per triangle,
- * the parts of a split glTF repeat some, and Draco adds some where the mesh is not manifold. */
+ * the parts of a split glTF repeat some, and Draco adds some where the mesh is not manifold. `warning` says
+ * that triangles of STL collapse, or that its coordinates are off by more than a hundredth of the mean
+ * edge: one English sentence in UTF-8, at most 1023 bytes, valid until the next dif_mesh_write() on this
+ * thread; NULL if there is nothing to tell. */
 typedef struct dif_mesh_write_report {
   uint64_t struct_size;
   int64_t bytes; /* size of the file */
@@ -813,6 +817,7 @@ typedef struct dif_mesh_write_report {
   double position_error;  /* no coordinate is off by more; exact for STL, 0 for PLY, OBJ, OFF */
   double local_origin[3]; /* glTF, Draco: what positions are relative to in the file; else 0 */
   int64_t collapsed_triangles; /* STL: that lose their area in float32; else 0 */
+  const char* warning;         /* what a user should know though the file is there; see below */
 } dif_mesh_write_report;
 
 /* Prepares an output struct. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */

@@ -226,6 +226,22 @@ contains
     call expect_same(welded, whole, 'blocks')
   end subroutine
 
+  subroutine test_far_stl(c)
+    real(8), intent(in), target :: c(:, :, :)
+    type(dif_mesh) :: mesh
+    character(1000) :: warning
+    integer :: status
+    call mesh%reconstruct(dif_view(c, spacing=[0.01d0, 0.01d0, 0.01d0]), status)
+    call mesh%write('meshes_test.stl', status, warning=warning)
+    call expect(status == dif_ok .and. warning == '', 'nothing to tell of STL nearby')
+    call mesh%reconstruct(dif_view(c, spacing=[0.01d0, 0.01d0, 0.01d0], &
+      origin=[5d5, 5.4d6, 3d2]), status)
+    call mesh%write('meshes_test.stl', status, warning=warning)
+    call expect(status == dif_ok .and. index(warning, 'collapse') > 0, trim(warning))
+    open (unit=11, file='meshes_test.stl')
+    close (11, status='delete')
+  end subroutine
+
   subroutine test_mesh_files()
     real(8), target :: c(24, 19, 21)
     type(dif_mesh) :: mesh, again
@@ -243,6 +259,7 @@ contains
     call expect(report%position_bits == 0, 'no bits')
     call expect_near(report%position_error, 0d0, 0d0, 'no error')
     call expect(report%collapsed_triangles == 0, 'no triangle collapses')
+    call test_far_stl(c)
     call mesh%write('no/such/folder.ply', status, report=report)
     call expect(status == dif_error_file_write .and. report%bytes == 0, 'nothing was written')
     call again%read('meshes_test.ply', status)

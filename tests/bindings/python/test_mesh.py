@@ -298,7 +298,9 @@ class Files(unittest.TestCase):
         rounded = mesh.points.astype(np.float32)[mesh.faces]
         edges = (rounded - rounded[:, :1]).astype(np.float64)
         lost = (np.cross(edges[:, 1], edges[:, 2]) == 0).all(axis=1)
-        report = self.saved(mesh, "far.stl")
+        with self.assertWarnsRegex(difmesh.Warning, "far.stl.*triangles collapse") as caught:
+            report = self.saved(mesh, "far.stl")
+        self.assertEqual(os.path.basename(caught.filename), "test_mesh.py")
         self.assertGreater(report.collapsed_triangles, 100)
         self.assertEqual(report.collapsed_triangles, np.count_nonzero(lost))
 

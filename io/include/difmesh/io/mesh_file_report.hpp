@@ -3,6 +3,8 @@
 /// What became of a mesh in a file.
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "difmesh/mesh.hpp"
 
@@ -25,6 +27,10 @@ struct MeshFileReport {
   /// STL: triangles that lose their area, all of it, in float32; other formats, whose positions are not
   /// rounded or relative to an origin nearby: 0.
   std::int64_t collapsed_triangles = 0;
+  /// What a user should know though the file is there, one English sentence each that names it: that
+  /// float32 moves coordinates of STL by more than a hundredth of the mean edge, or triangles collapse.
+  /// UTF-8 of at most 1000 bytes, without control characters.
+  std::vector<std::string> warnings = {};
 };
 
 }  // namespace difmesh
