@@ -384,8 +384,8 @@ contains
   end function
 
   ! What read() left out of the file or took otherwise than it says, and what reconstruct() says of
-  ! values that look like a mask, one sentence each of at most 1000 characters; of size 0 if there is
-  ! nothing to tell.
+  ! values that look like a mask, one sentence each of at most 1000 characters; of size 0 if there
+  ! is nothing to tell.
   subroutine get_warnings(mesh, warnings, status, message)
     class(dif_mesh), intent(in) :: mesh
     character(*), allocatable, intent(out) :: warnings(:)

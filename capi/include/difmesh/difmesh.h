@@ -186,13 +186,12 @@ enum {
 
 /* What lies beyond a side of the domain. */
 enum {
-  DIF_SIDE_DEFAULT = 0, /* OPEN */
-  DIF_SIDE_OPEN = 1,    /* nothing is known; the surface runs on to the domain face */
-  DIF_SIDE_MIRROR = 2,  /* a symmetry plane */
-  DIF_SIDE_PERIODIC =
-      3,              /* wraps round, both sides of an axis together; the surface spans a period */
-  DIF_SIDE_EMPTY = 4, /* fraction 0: closes the surface */
-  DIF_SIDE_FULL = 5   /* fraction 1: closes the surface of the complement */
+  DIF_SIDE_DEFAULT = 0,  /* OPEN */
+  DIF_SIDE_OPEN = 1,     /* nothing is known; the surface runs on to the domain face */
+  DIF_SIDE_MIRROR = 2,   /* a symmetry plane */
+  DIF_SIDE_PERIODIC = 3, /* wraps round, both sides of an axis together; spans one period */
+  DIF_SIDE_EMPTY = 4,    /* fraction 0: closes the surface */
+  DIF_SIDE_FULL = 5      /* fraction 1: closes the surface of the complement */
 };
 
 typedef struct dif_options {
@@ -219,10 +218,10 @@ typedef struct dif_mesh dif_mesh;
 
 /* Reconstructs the surface of a field: marching cubes on the grid of cell centres at 1/2, with the
  * vertices where `placement` puts them. The mesh is manifold and free of self-intersections for
- * every field. It ends only on `open` and `mirror` sides, at the ends of the period of `periodic` axes,
- * which are the first cell centre and its image, and along edges of the domain where an `empty` side
- * meets a `full` one. An empty field gives an empty mesh. Where DIF_UINT8 or DIF_UINT16 hardly hold
- * shares of 255 or 65535, dif_mesh_warning() says so and names the highest value: in masks and
+ * every field. It ends only on `open` and `mirror` sides, at the ends of the period of `periodic`
+ * axes, which are the first cell centre and its image, and along edges of the domain where an `empty`
+ * side meets a `full` one. An empty field gives an empty mesh. Where DIF_UINT8 or DIF_UINT16 hardly
+ * hold shares of 255 or 65535, dif_mesh_warning() says so and names the highest value: in masks and
  * segmentations no cell is full, and none is half full or there are at most 16 different values.
  * OUT_OF_MEMORY comes before the pass over the field where that is known already.
  * Errors: INVALID_ARGUMENT, INVALID_GRID, INVALID_VALUE, STRUCT, TOO_LARGE, OUT_OF_MEMORY, CANCELLED.
@@ -802,10 +801,10 @@ typedef struct dif_mesh_write_options {
 DIF_API dif_status dif_mesh_write_options_init(dif_mesh_write_options* options,
                                                uint64_t struct_size);
 /* What became of a mesh in a file. Counts are those of the file: STL has three vertices per triangle,
- * the parts of a split glTF repeat some, and Draco adds some where the mesh is not manifold. `warning` says
- * that triangles of STL collapse, or that its coordinates are off by more than a hundredth of the mean
- * edge: one English sentence in UTF-8, at most 1023 bytes, valid until the next dif_mesh_write() on this
- * thread; NULL if there is nothing to tell. */
+ * the parts of a split glTF repeat some, and Draco adds some where the mesh is not manifold.
+ * `warning` says that triangles of STL collapse, or that its coordinates are off by more than a
+ * hundredth of the mean edge: one English sentence in UTF-8, at most 1023 bytes, valid until the next
+ * dif_mesh_write() on this thread; NULL if there is nothing to tell. */
 typedef struct dif_mesh_write_report {
   uint64_t struct_size;
   int64_t bytes; /* size of the file */
@@ -817,7 +816,7 @@ typedef struct dif_mesh_write_report {
   double position_error;  /* no coordinate is off by more; exact for STL, 0 for PLY, OBJ, OFF */
   double local_origin[3]; /* glTF, Draco: what positions are relative to in the file; else 0 */
   int64_t collapsed_triangles; /* STL: that lose their area in float32; else 0 */
-  const char* warning;         /* what a user should know though the file is there; see below */
+  const char* warning;         /* what a user should know though the file is there; see above */
 } dif_mesh_write_report;
 
 /* Prepares an output struct. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
