@@ -1,7 +1,6 @@
 #include "smoothing.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 #include "difmesh/constrained_smoothing.hpp"
@@ -36,7 +35,7 @@ const KindRules& rules_of(SmoothingKind kind) {
                        [kind](const KindRules& rules) { return rules.kind == kind; });
 }
 
-Array<Vec3> moved(const Smoothing& smoothing, const SmoothingContext& context, const Mesh& mesh) {
+Mesh smoothed(const Smoothing& smoothing, const SmoothingContext& context, const Mesh& mesh) {
   const int steps = static_cast<int>(smoothing.number);
   switch (smoothing.kind) {
     case SmoothingKind::laplacian: {
@@ -44,14 +43,14 @@ Array<Vec3> moved(const Smoothing& smoothing, const SmoothingContext& context, c
       options.steps = steps;
       options.threads = context.threads;
       options.progress = context.progress;
-      return smooth_laplacian(mesh.positions, mesh.triangles, options);
+      return smooth_laplacian(mesh, options);
     }
     case SmoothingKind::taubin: {
       TaubinOptions options;
       options.steps = steps;
       options.threads = context.threads;
       options.progress = context.progress;
-      return smooth_taubin(mesh.positions, mesh.triangles, options);
+      return smooth_taubin(mesh, options);
     }
     case SmoothingKind::flow: {
       const Vec3& spacing = context.grid.spacing;
@@ -60,7 +59,7 @@ Array<Vec3> moved(const Smoothing& smoothing, const SmoothingContext& context, c
       options.time = smoothing.number * cell * cell;
       options.threads = context.threads;
       options.progress = context.progress;
-      return smooth_by_curvature_flow(mesh.positions, mesh.triangles, options);
+      return smooth_by_curvature_flow(mesh, options);
     }
     case SmoothingKind::constrained:
       break;
@@ -69,33 +68,7 @@ Array<Vec3> moved(const Smoothing& smoothing, const SmoothingContext& context, c
   options.tolerance = smoothing.number;
   options.threads = context.threads;
   options.progress = context.progress;
-  return smooth_within_fractions(mesh, context.grid, options).positions;
-}
-
-Vec3 area_vector(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 u{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-  const Vec3 v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
-
-/// Vertices whose triangles have no area keep the normal that they had.
-void renew_normals(Mesh& mesh) {
-  Array<Vec3> sums;
-  sums.assign(mesh.positions.size(), Vec3{0.0, 0.0, 0.0});
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3 area = area_vector(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
-    for (const std::uint32_t v : t) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        sums[v][axis] += area[axis];
-      }
-    }
-  }
-  for (std::size_t v = 0; v < sums.size(); ++v) {
-    const double length = std::hypot(sums[v][0], sums[v][1], sums[v][2]);
-    for (std::size_t axis = 0; axis < 3 && length > 0.0; ++axis) {
-      mesh.normals[v][axis] = sums[v][axis] / length;
-    }
-  }
+  return smooth_within_fractions(mesh, context.grid, options).mesh;
 }
 
 }  // namespace
@@ -122,10 +95,7 @@ std::string smoothing_text(const Smoothing& smoothing) {
 }
 
 void smooth_surface(const Smoothing& smoothing, const SmoothingContext& context, Mesh& mesh) {
-  mesh.positions = moved(smoothing, context, mesh);
-  if (!mesh.normals.empty()) {
-    renew_normals(mesh);
-  }
+  mesh = smoothed(smoothing, context, mesh);
 }
 
 }  // namespace difmesh::cli

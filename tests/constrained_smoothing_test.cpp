@@ -100,7 +100,7 @@ TEST_CASE("constrained smoothing: no fraction changes by more than the tolerance
       CAPTURE(tolerance);
       const ConstrainedSmoothing smooth =
           smooth_within_fractions(mesh, kGrid, {.tolerance = tolerance});
-      const double change = largest_change(mesh, smooth.positions, kGrid);
+      const double change = largest_change(mesh, smooth.mesh.positions, kGrid);
       CHECK(change == smooth.largest_change);
       CHECK(change <= tolerance);
       CHECK(change > 0.0);
@@ -118,16 +118,16 @@ TEST_CASE("constrained smoothing: vertices stay on their edges and the surface a
   const double clearance = 0.01;
   const ConstrainedSmoothing smooth =
       smooth_within_fractions(mesh, grid, {.steps = 2, .tolerance = 0.2, .clearance = clearance});
-  CHECK(largest_change(mesh, smooth.positions, grid) <= 0.2);
+  CHECK(largest_change(mesh, smooth.mesh.positions, grid) <= 0.2);
   std::size_t moved = 0;
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     const DualEdge edge = dual_edge(mesh.edge_ids[v], grid.dims);
     for (std::size_t a = 0; a < 3; ++a) {
       if (a != edge.axis) {
-        REQUIRE(smooth.positions[v][a] == mesh.positions[v][a]);
-      } else if (smooth.positions[v][a] != mesh.positions[v][a]) {
+        REQUIRE(smooth.mesh.positions[v][a] == mesh.positions[v][a]);
+      } else if (smooth.mesh.positions[v][a] != mesh.positions[v][a]) {
         const double share =
-            (smooth.positions[v][a] - grid.cell_centre(edge.node)[a]) / grid.spacing[a];
+            (smooth.mesh.positions[v][a] - grid.cell_centre(edge.node)[a]) / grid.spacing[a];
         const double was =
             (mesh.positions[v][a] - grid.cell_centre(edge.node)[a]) / grid.spacing[a];
         REQUIRE(share >= std::min(was, clearance) - 1e-12);
@@ -137,7 +137,7 @@ TEST_CASE("constrained smoothing: vertices stay on their edges and the surface a
     }
   }
   CHECK(moved > mesh.positions.size() / 4);
-  const auto measure = difmesh::measure(smooth.positions, mesh.triangles);
+  const auto measure = difmesh::measure(smooth.mesh.positions, mesh.triangles);
   CHECK(measure.closed);
   CHECK(measure.manifold);
   CHECK(measure.volume > 0.0);
@@ -151,15 +151,15 @@ TEST_CASE("constrained smoothing: smooths what the tolerance lets it and keeps t
   for (const int steps : {1, 3, 10}) {
     const ConstrainedSmoothing smooth =
         smooth_within_fractions(manson, kGrid, {.steps = steps, .tolerance = 0.02});
-    const double error = curvature_error(smooth.positions, manson);
+    const double error = curvature_error(smooth.mesh.positions, manson);
     CHECK(error < last);
     last = error;
-    CHECK(difmesh::measure(smooth.positions, manson.triangles).volume ==
+    CHECK(difmesh::measure(smooth.mesh.positions, manson.triangles).volume ==
           doctest::Approx(volume).epsilon(5e-4));
   }
   CHECK(last < 0.75 * before);
   const ConstrainedSmoothing none = smooth_within_fractions(manson, kGrid, {.steps = 0});
-  CHECK(same_bytes(none.positions, manson.positions));
+  CHECK(same_bytes(none.mesh.positions, manson.positions));
   CHECK(none.largest_change == 0.0);
 }
 
@@ -168,7 +168,7 @@ TEST_CASE("constrained smoothing: no bit depends on the number of threads") {
   const ConstrainedSmoothing one = smooth_within_fractions(mesh, kGrid, {.threads = 1});
   for (const int threads : {2, 3, 0}) {
     const ConstrainedSmoothing other = smooth_within_fractions(mesh, kGrid, {.threads = threads});
-    CHECK(same_bytes(one.positions, other.positions));
+    CHECK(same_bytes(one.mesh.positions, other.mesh.positions));
     CHECK(one.largest_change == other.largest_change);
     CHECK(one.held_vertices == other.held_vertices);
     CHECK(one.measurements == other.measurements);
@@ -194,5 +194,5 @@ TEST_CASE("constrained smoothing: bad input is named") {
   CHECK(code_of([&] { attempt(open, kGrid); }, "") == invalid);
   CHECK(code_of([&] { attempt(mesh, kGrid, {.progress = [](double) { return false; }}); },
                 "cancelled") == ErrorCode::cancelled);
-  CHECK(smooth_within_fractions({}, kGrid).positions.empty());
+  CHECK(smooth_within_fractions({}, kGrid).mesh.positions.empty());
 }

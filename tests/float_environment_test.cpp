@@ -97,7 +97,7 @@ std::vector<double> numbers_of_all(const Inputs& inputs, bool& undisturbed) {
   look();
   append(numbers, smooth_taubin(mesh.positions, mesh.triangles));
   append(numbers, smooth_by_curvature_flow(mesh.positions, mesh.triangles));
-  append(numbers, smooth_within_fractions(mesh, cells).positions);
+  append(numbers, smooth_within_fractions(mesh, cells).mesh.positions);
   look();
   append(numbers, fractions_from_mesh(cells, mesh.positions, mesh.triangles).fractions);
   look();

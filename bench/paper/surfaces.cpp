@@ -76,7 +76,7 @@ Mesh constrained(const Sample& sample, Placement placement) {
   Mesh mesh = reconstruct(sample.field(), sample.grid, options).mesh;
   ConstrainedSmoothingOptions smoothing;
   smoothing.threads = 1;
-  mesh.positions = smooth_within_fractions(mesh, sample.grid, smoothing).positions;
+  mesh = smooth_within_fractions(mesh, sample.grid, smoothing).mesh;
   return mesh;
 }
 

@@ -96,8 +96,8 @@ contains
     call take(mesh, made, status)
   end subroutine
 
-  ! Another mesh with its vertices moved, without normals and scalars; see dif_mesh_smooth in
-  ! difmesh.h. dif_smoothing_constrained needs the grid of the reconstruction.
+  ! Another mesh with its vertices moved, with normals of the smooth surface if it has normals, without
+  ! scalars; see dif_mesh_smooth in difmesh.h. dif_smoothing_constrained needs the grid of the reconstruction.
   subroutine smooth(mesh, from, status, options, grid, message)
     class(dif_mesh), intent(inout) :: mesh
     type(dif_mesh), intent(in) :: from

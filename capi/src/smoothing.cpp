@@ -1,7 +1,6 @@
 #include "difmesh/smoothing.hpp"
 
 #include <array>
-#include <memory>
 #include <string>
 
 #include "boundary.hpp"
@@ -13,10 +12,8 @@ namespace capi = difmesh::capi;
 
 namespace {
 
-using difmesh::Array;
 using difmesh::BoundaryVertices;
 using difmesh::Mesh;
-using difmesh::Vec3;
 
 constexpr std::array kBoundaries{BoundaryVertices::stay, BoundaryVertices::along};
 
@@ -34,37 +31,36 @@ BoundaryVertices boundary_of(const dif_smoothing_options& given) {
   return capi::to_choice(given.boundary, BoundaryVertices::stay, kBoundaries, "boundary");
 }
 
-Array<Vec3> laplacian(const Mesh& mesh, const dif_smoothing_options& given) {
+Mesh laplacian(const Mesh& mesh, const dif_smoothing_options& given) {
   auto options = common<difmesh::LaplacianOptions>(given);
   options.factor = given.factor;
   options.boundary = boundary_of(given);
-  return smooth_laplacian(mesh.positions, mesh.triangles, options);
+  return smooth_laplacian(mesh, options);
 }
 
-Array<Vec3> taubin(const Mesh& mesh, const dif_smoothing_options& given) {
+Mesh taubin(const Mesh& mesh, const dif_smoothing_options& given) {
   auto options = common<difmesh::TaubinOptions>(given);
   options.lambda = given.lambda;
   options.pass_band = given.pass_band;
   options.boundary = boundary_of(given);
-  return smooth_taubin(mesh.positions, mesh.triangles, options);
+  return smooth_taubin(mesh, options);
 }
 
-Array<Vec3> flow(const Mesh& mesh, const dif_smoothing_options& given) {
+Mesh flow(const Mesh& mesh, const dif_smoothing_options& given) {
   auto options = common<difmesh::CurvatureFlowOptions>(given);
   options.time = given.time;
   options.tolerance = given.residual;
-  return smooth_by_curvature_flow(mesh.positions, mesh.triangles, options);
+  return smooth_by_curvature_flow(mesh, options);
 }
 
-Array<Vec3> constrained(const Mesh& mesh, const dif_grid* grid,
-                        const dif_smoothing_options& given) {
+Mesh constrained(const Mesh& mesh, const dif_grid* grid, const dif_smoothing_options& given) {
   auto options = common<difmesh::ConstrainedSmoothingOptions>(given);
   options.tolerance = given.tolerance;
   options.clearance = given.clearance;
-  return smooth_within_fractions(mesh, capi::to_grid(grid), options).positions;
+  return smooth_within_fractions(mesh, capi::to_grid(grid), options).mesh;
 }
 
-Array<Vec3> smoothed(const Mesh& mesh, const dif_grid* grid, const dif_smoothing_options& given) {
+Mesh smoothed(const Mesh& mesh, const dif_grid* grid, const dif_smoothing_options& given) {
   static_cast<void>(boundary_of(given));
   switch (given.kind) {
     case DIF_SMOOTHING_DEFAULT:
@@ -108,10 +104,7 @@ dif_status dif_mesh_smooth(const dif_mesh* mesh, const dif_grid* grid,
     const Mesh& given = capi::required(mesh, "mesh").mesh;
     dif_smoothing_options defaults{};
     dif_smoothing_options_init(&defaults, sizeof defaults);
-    auto made = std::make_unique<dif_mesh>();
-    made->mesh.positions = smoothed(given, grid, capi::read_struct(options, defaults, "options"));
-    made->mesh.triangles = given.triangles;
-    made->mesh.edge_ids = given.edge_ids;
-    handle = made.release();
+    const dif_smoothing_options chosen = capi::read_struct(options, defaults, "options");
+    handle = new dif_mesh{.mesh = smoothed(given, grid, chosen)};
   });
 }

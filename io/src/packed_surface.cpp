@@ -10,7 +10,7 @@
 #include "difmesh/error.hpp"
 #include "mesh_check.hpp"
 #include "text.hpp"
-#include "vertex_normals.hpp"
+#include "unit_normals.hpp"
 
 namespace difmesh::detail {
 namespace {

@@ -126,9 +126,10 @@ TEST_CASE("--smooth moves the vertices as the library does") {
   flow.time = 0.25 * 0.08 * 0.08;
   check("flow:0.25", difmesh::smooth_by_curvature_flow(given.positions, given.triangles, flow));
   difmesh::ConstrainedSmoothingOptions constrained;
-  check("constrained", difmesh::smooth_within_fractions(given, kGrid, constrained).positions);
+  check("constrained", difmesh::smooth_within_fractions(given, kGrid, constrained).mesh.positions);
   constrained.tolerance = 2e-3;
-  check("constrained:2e-3", difmesh::smooth_within_fractions(given, kGrid, constrained).positions);
+  check("constrained:2e-3",
+        difmesh::smooth_within_fractions(given, kGrid, constrained).mesh.positions);
 }
 
 TEST_CASE("--smooth renews normals and keeps edge ids where they are asked for") {

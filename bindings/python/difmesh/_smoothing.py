@@ -78,7 +78,9 @@ def smooth(
     threads: int = 0,
     progress: Progress = None,
 ) -> Mesh:
-    """A mesh with the vertices moved and the same faces; without normals, scalars and report.
+    """A mesh with the vertices moved and the same faces; without scalars and report.
+
+    If the mesh has normals, the new one has those of the smooth surface.
 
     kind:
         "laplacian": to the mean of the neighbours; shrinks. `factor`, (0, 1], is the share of the

@@ -734,9 +734,10 @@ typedef struct dif_smoothing_options {
 /* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
 DIF_API dif_status dif_smoothing_options_init(dif_smoothing_options* options, uint64_t struct_size);
 
-/* A new mesh with the vertices moved. It has the triangles and edge_ids of the given one, but no
- * normals, scalars or report, which no longer hold. CONSTRAINED needs a closed mesh with edge_ids and
- * the grid of its reconstruction; `grid` may be NULL for the others, which do not look at it.
+/* A new mesh with the vertices moved. It has the triangles and edge_ids of the given one and, if
+ * that has normals, those of the smooth surface, but no scalars or report, which no longer hold.
+ * CONSTRAINED needs a closed mesh with edge_ids and the grid of its reconstruction; `grid` may be
+ * NULL for the others, which do not look at it.
  * Errors: INVALID_ARGUMENT, INVALID_GRID, TOO_LARGE, STRUCT, OUT_OF_MEMORY, CANCELLED. Since 0.1. */
 DIF_API dif_status dif_mesh_smooth(const dif_mesh* mesh, const dif_grid* grid,
                                    const dif_smoothing_options* options, dif_mesh** smooth);
@@ -769,8 +770,8 @@ enum {
   DIF_UP_Z = 2        /* a root node turns z up to y up; the coordinates below it are as they are */
 };
 
-/* "glTF" is .glb and .gltf; "Draco" is .drc, and glTF with `draco`. What a format cannot honour must be
- * left as it is. */
+/* "glTF" is .glb and .gltf; "Draco" is .drc, and glTF with `draco`. What a format cannot honour must
+ * be left as it is. */
 typedef struct dif_mesh_write_options {
   uint64_t struct_size;
   const char* format;    /* an extension, such as "ply"; NULL, the default: that of the path */
@@ -821,9 +822,9 @@ typedef struct dif_mesh_write_report {
 
 /* Prepares an output struct. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
 DIF_API dif_status dif_mesh_write_report_init(dif_mesh_write_report* report, uint64_t struct_size);
-/* Writes .ply (float64), .obj, .off, .stl (float32), .glb, .gltf (glTF, float32 about the centre) or .drc
- * (Draco), told by the extension or the options. `report` may be NULL; one that cannot be filled is
- * refused before anything is written. Errors: INVALID_ARGUMENT, INVALID_VALUE (a position or scalar
+/* Writes .ply (float64), .obj, .off, .stl (float32), .glb, .gltf (glTF, float32 about the centre) or
+ * .drc (Draco), told by the extension or the options. `report` may be NULL; one that cannot be
+ * filled is refused before anything is written. Errors: INVALID_ARGUMENT, INVALID_VALUE (a position or scalar
  * that is not finite; for glTF and Draco a mesh without triangles), TOO_LARGE, FILE_WRITE, STRUCT,
  * OUT_OF_MEMORY, UNSUPPORTED (DIF_PART_GLTF or DIF_PART_DRACO is not there). Since 0.1. */
 DIF_API dif_status dif_mesh_write(const dif_mesh* mesh, const char* path,

@@ -22,7 +22,7 @@ struct ConstrainedSmoothingOptions {
 };
 
 struct ConstrainedSmoothing {
-  Array<Vec3> positions;  ///< one per vertex of the mesh
+  Mesh mesh;  ///< with_positions() (vertex_normals.hpp) of the one given
   /// Largest change of a cell's fraction, as measured at the end; at most the tolerance.
   double largest_change = 0.0;
   /// Vertices whose last step was shortened, or denied, for the sake of the fractions.

@@ -25,4 +25,5 @@
 #include "difmesh/smoothing.hpp"
 #include "difmesh/values.hpp"
 #include "difmesh/version.hpp"
+#include "difmesh/vertex_normals.hpp"
 #include "difmesh/weld.hpp"

@@ -3,9 +3,10 @@
 /// Smoothing of triangle meshes: moves vertices, keeps triangles. For the constrained kind see
 /// constrained_smoothing.hpp.
 ///
-/// All functions take a mesh as positions and triangles, in any unit, and return a position per
-/// vertex. Vertices without triangles stay. None looks at volumes, and none keeps a mesh from
-/// cutting itself.
+/// Each function takes positions and triangles, in any unit, and returns a position per vertex, or
+/// a mesh, and returns it with_positions() (vertex_normals.hpp): with the normals of the smooth
+/// surface, where it has normals. Vertices without triangles stay. None looks at volumes, and none
+/// keeps a mesh from cutting itself.
 ///
 /// \throw Error invalid_argument for options out of range, an index out of range (the triangle is
 ///   named) or a position that is not finite (the vertex is named); too_large beyond 2^32 - 1
@@ -40,6 +41,7 @@ struct LaplacianOptions {
 [[nodiscard]] Array<Vec3> smooth_laplacian(std::span<const Vec3> positions,
                                            std::span<const Triangle> triangles,
                                            const LaplacianOptions& options = {});
+[[nodiscard]] Mesh smooth_laplacian(const Mesh& mesh, const LaplacianOptions& options = {});
 
 struct TaubinOptions {
   int steps = 15;          ///< each one move inwards and one outwards; [0, 10^6]
@@ -61,6 +63,7 @@ struct TaubinOptions {
 [[nodiscard]] Array<Vec3> smooth_taubin(std::span<const Vec3> positions,
                                         std::span<const Triangle> triangles,
                                         const TaubinOptions& options = {});
+[[nodiscard]] Mesh smooth_taubin(const Mesh& mesh, const TaubinOptions& options = {});
 
 struct CurvatureFlowOptions {
   int steps = 1;  ///< [0, 10^6]
@@ -85,5 +88,7 @@ struct CurvatureFlowOptions {
 [[nodiscard]] Array<Vec3> smooth_by_curvature_flow(std::span<const Vec3> positions,
                                                    std::span<const Triangle> triangles,
                                                    const CurvatureFlowOptions& options = {});
+[[nodiscard]] Mesh smooth_by_curvature_flow(const Mesh& mesh,
+                                            const CurvatureFlowOptions& options = {});
 
 }  // namespace difmesh

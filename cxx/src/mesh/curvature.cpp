@@ -10,6 +10,7 @@
 #include "base/parallel.hpp"
 #include "difmesh/error.hpp"
 #include "difmesh/float_environment.hpp"
+#include "mesh/area_vectors.hpp"
 #include "mesh/mesh_arrays.hpp"
 #include "mesh/vertex_neighbours.hpp"
 #include "mesh/vertex_patch.hpp"

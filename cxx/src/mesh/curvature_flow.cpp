@@ -11,6 +11,7 @@
 #include "difmesh/error.hpp"
 #include "difmesh/float_environment.hpp"
 #include "difmesh/smoothing.hpp"
+#include "difmesh/vertex_normals.hpp"
 #include "mesh/mesh_arrays.hpp"
 #include "mesh/smoothing_options.hpp"
 #include "mesh/vertex_neighbours.hpp"
@@ -244,6 +245,10 @@ Array<Vec3> smooth_by_curvature_flow(std::span<const Vec3> positions,
   }
   phases.finish();
   return moved;
+}
+
+Mesh smooth_by_curvature_flow(const Mesh& mesh, const CurvatureFlowOptions& options) {
+  return with_positions(mesh, smooth_by_curvature_flow(mesh.positions, mesh.triangles, options));
 }
 
 }  // namespace difmesh

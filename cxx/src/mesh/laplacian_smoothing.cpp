@@ -9,6 +9,7 @@
 #include "difmesh/error.hpp"
 #include "difmesh/float_environment.hpp"
 #include "difmesh/smoothing.hpp"
+#include "difmesh/vertex_normals.hpp"
 #include "mesh/mesh_arrays.hpp"
 #include "mesh/smoothing_options.hpp"
 #include "mesh/vertex_neighbours.hpp"
@@ -117,6 +118,14 @@ Array<Vec3> smooth_taubin(std::span<const Vec3> positions, std::span<const Trian
   }
   phases.finish();
   return umbrella.take();
+}
+
+Mesh smooth_laplacian(const Mesh& mesh, const LaplacianOptions& options) {
+  return with_positions(mesh, smooth_laplacian(mesh.positions, mesh.triangles, options));
+}
+
+Mesh smooth_taubin(const Mesh& mesh, const TaubinOptions& options) {
+  return with_positions(mesh, smooth_taubin(mesh.positions, mesh.triangles, options));
 }
 
 }  // namespace difmesh

@@ -16,19 +16,6 @@ constexpr int kMostExtraRings = 4;
 
 }  // namespace
 
-Array<Vec3> area_vectors(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
-  Array<Vec3> sums;
-  sums.assign(positions.size(), Vec3{0.0, 0.0, 0.0});
-  for (const Triangle& t : triangles) {
-    const Vec3& base = positions[t[0]];
-    const Vec3 area = cross(minus(positions[t[1]], base), minus(positions[t[2]], base));
-    for (const std::uint32_t v : t) {
-      sums[v] = plus(sums[v], area);
-    }
-  }
-  return sums;
-}
-
 PatchFit VertexPatch::operator()(std::uint32_t vertex) {
   is_widened_ = false;
   walk_.start(vertex);

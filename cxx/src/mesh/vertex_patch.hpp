@@ -11,10 +11,6 @@
 
 namespace difmesh::detail {
 
-/// Sums of the triangles' vector areas, twice, at each vertex, in the order of the triangles.
-[[nodiscard]] Array<Vec3> area_vectors(std::span<const Vec3> positions,
-                                       std::span<const Triangle> triangles);
-
 /// What patches are fitted to. All must outlive the fits.
 struct PatchSurface {
   std::span<const Vec3> positions;

@@ -13,6 +13,8 @@
 #include "difmesh/error.hpp"
 #include "difmesh/float_environment.hpp"
 #include "difmesh/fractions_from_mesh.hpp"
+#include "difmesh/vertex_normals.hpp"
+#include "mesh/area_vectors.hpp"
 #include "mesh/mesh_arrays.hpp"
 #include "mesh/vertex_neighbours.hpp"
 #include "mesh/vertex_patch.hpp"
@@ -127,7 +129,8 @@ class Tracks {
 class Smoother {
  public:
   Smoother(const Mesh& mesh, const Grid& grid, const ConstrainedSmoothingOptions& options)
-      : grid_(grid),
+      : given_(mesh),
+        grid_(grid),
         options_(options),
         triangles_(mesh.triangles),
         workers_(options.threads),
@@ -135,8 +138,8 @@ class Smoother {
         neighbours_(mesh.positions.size(), mesh.triangles, workers_),
         moves_(mesh.positions.size()),
         halvings_(mesh.positions.size()) {
-    result_.positions = mesh.positions;
-    wanted_ = measured(result_.positions, true);
+    positions_ = mesh.positions;
+    wanted_ = measured(positions_, true);
   }
 
   /// \return false if nothing has moved
@@ -148,7 +151,7 @@ class Smoother {
       Array<Vec3> candidate = moved();
       double largest = 0.0;
       if (!mark_changes(measured(candidate, false), marks, largest)) {
-        result_.positions = std::move(candidate);
+        positions_ = std::move(candidate);
         result_.largest_change = largest;
         return true;
       }
@@ -161,6 +164,7 @@ class Smoother {
   ConstrainedSmoothing finish() {
     result_.held_vertices = std::count_if(halvings_.begin(), halvings_.end(),
                                           [](std::uint8_t halvings) { return halvings > 0; });
+    result_.mesh = with_positions(given_, std::move(positions_));
     return std::move(result_);
   }
 
@@ -182,8 +186,8 @@ class Smoother {
 
   /// How far each vertex is to go along its edge to meet its patch.
   void find_moves() {
-    const Array<Vec3> areas = area_vectors(result_.positions, triangles_);
-    const PatchSurface surface{result_.positions, areas, neighbours_};
+    const Array<Vec3> areas = area_vectors(positions_, triangles_);
+    const PatchSurface surface{positions_, areas, neighbours_};
     for_vertices([&](std::int64_t begin, std::int64_t end) {
       VertexPatch patch(surface);
       for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v) {
@@ -191,7 +195,7 @@ class Smoother {
         const EdgeTrack& track = tracks_[v];
         const double crossing = fitted.axis[track.axis];
         const double way = fitted.height * crossing / std::max(crossing * crossing, kLeastCrossing);
-        const double here = result_.positions[v][track.axis];
+        const double here = positions_[v][track.axis];
         moves_[v] =
             fitted.is_determined ? std::clamp(here + way, track.low, track.high) - here : 0.0;
       }
@@ -199,7 +203,7 @@ class Smoother {
   }
 
   [[nodiscard]] Array<Vec3> moved() {
-    Array<Vec3> positions = result_.positions;
+    Array<Vec3> positions = positions_;
     for_vertices([&](std::int64_t begin, std::int64_t end) {
       for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v) {
         if (halvings_[v] <= kMostHalvings) {
@@ -235,12 +239,14 @@ class Smoother {
     return any;
   }
 
+  const Mesh& given_;
   const Grid& grid_;
   const ConstrainedSmoothingOptions& options_;
   std::span<const Triangle> triangles_;
   Workers workers_;
   Tracks tracks_;
   VertexNeighbours neighbours_;
+  Array<Vec3> positions_;
   ConstrainedSmoothing result_;
   Array<double> wanted_;
   std::vector<double> moves_;
@@ -266,7 +272,7 @@ ConstrainedSmoothing smooth_within_fractions(const Mesh& mesh, const Grid& grid,
   const DefaultFloatEnvironment environment;
   check(mesh, grid, options);
   if (mesh.triangles.empty()) {
-    return {mesh.positions, 0.0, 0, 0};
+    return {with_positions(mesh, mesh.positions), 0.0, 0, 0};
   }
   Smoother smoother(mesh, grid, options);
   for (int step = 0; step < options.steps && smoother.step(); ++step) {

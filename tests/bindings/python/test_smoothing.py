@@ -68,6 +68,15 @@ class Curvature(unittest.TestCase):
             self.assertTrue((difmesh.read_mesh(path).scalars["mean_curvature"] == mean).all())
 
 
+def facet_means(mesh):
+    """Unit sums of the area vectors of the faces around each point."""
+    a, b, c = (mesh.points[mesh.faces[:, corner]] for corner in range(3))
+    sums = np.zeros_like(mesh.points)
+    for corner in range(3):
+        np.add.at(sums, mesh.faces[:, corner], np.cross(b - a, c - a))
+    return sums / np.linalg.norm(sums, axis=1)[:, np.newaxis]
+
+
 class Smooth(unittest.TestCase):
     def test_kinds(self):
         mesh = ball(placement="linear", edge_ids=True, vertex_normals=True)
@@ -81,8 +90,10 @@ class Smooth(unittest.TestCase):
         for other in (taubin, difmesh.smooth(mesh, "laplacian", factor=0.5)):
             self.assertTrue((other.faces == mesh.faces).all())
             self.assertTrue((other.edge_ids == mesh.edge_ids).all())
-            self.assertIsNone(other.normals)
+            np.testing.assert_allclose(other.normals, facet_means(other), atol=1e-12)
             self.assertIsNone(other.report)
+        bare = difmesh.Mesh(mesh.points, mesh.faces)
+        self.assertIsNone(difmesh.smooth(bare).normals)
 
     def test_constrained(self):
         mesh = ball(placement="linear", edge_ids=True)
