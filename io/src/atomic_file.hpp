@@ -33,10 +33,10 @@ class SpoolFile : public ByteOutput {
 
 /// Writes to a new file beside the target; commit() gives it the target's name. Without commit() it
 /// is removed. Symbolic links stay and are written through, to a file that is there or not yet:
-/// beside that file is where the new one is made. A target that is no regular file (a device, a pipe,
-/// standard output) is written directly. Against failures of programs and disks, not against loss of
-/// power: nothing is forced to the disk. Every member throws Error file_write, naming the target and
-/// the system's reason.
+/// beside that file is where the new one is made. A target that is no regular file (a device, a
+/// pipe, standard output) is written directly. Against failures of programs and disks, not against
+/// loss of power: nothing is forced to the disk. Every member throws Error file_write, naming the
+/// target and the system's reason.
 class AtomicFile : public ByteOutput {
  public:
   explicit AtomicFile(const std::filesystem::path& target);

@@ -1,12 +1,12 @@
 #pragma once
 /// \file format_part.hpp
-/// What a format of meshes consists of. To add one: a file that defines its FormatPart, constinit and
-/// const, and a line in format_list.hpp.
+/// What a format of meshes consists of. To add one: a file that defines its FormatPart, constinit
+/// and const, and a line in format_list.hpp.
 ///
 /// Why our own and not OpenMesh's: OpenMesh 9.0 passes every position and normal through float32.
 /// Its readers and writers of PLY, OBJ and OFF, binary and text, with a mesh of float64 points and
-/// 17 digits asked for, give back 0.1 as 0.10000000149011612. Its reader of STL drops triangles whose
-/// corners coincide, and its writer speaks through a log that the whole program shares.
+/// 17 digits asked for, give back 0.1 as 0.10000000149011612. Its reader of STL drops triangles
+/// whose corners coincide, and its writer speaks through a log that the whole program shares.
 
 #include <cstdint>
 #include <filesystem>

@@ -32,8 +32,8 @@ struct PortionStart {
 };
 /// \param float32_format where float32 bounds the positions, the name of the format; else empty
 /// \throw Error invalid_argument if an index is out of range, or normals, edge_ids or scalars are
-///   neither empty nor one per vertex; invalid_value if a position or normal is not finite or beyond
-///   that
+///   neither empty nor one per vertex; invalid_value if a position or normal is not finite or
+///   beyond that
 void check_portion(const std::filesystem::path& path, const MeshPortion& portion,
                    const PortionStart& start, std::string_view float32_format = {});
 
@@ -50,11 +50,12 @@ struct VertexLine {
 /// "line 7", or nothing for a vertex that is not among `lines`, which ascend.
 [[nodiscard]] std::string place_of(const std::vector<VertexLine>& lines, std::size_t vertex);
 
-/// Leaves out what is not finite and no surface needs, with a warning: all normals, if one of them is
-/// not; vertices that no triangle uses, with all that belongs to them. The others keep their order.
-/// Scalars are not looked at.
+/// Leaves out what is not finite and no surface needs, with a warning: all normals, if one of them
+/// is not; vertices that no triangle uses, with all that belongs to them. The others keep their
+/// order. Scalars are not looked at.
 /// \param place where the file has a vertex, for the message: "line 7" or nothing
-/// \throw Error file_format if a triangle uses a vertex that is not finite; indices must be in range
+/// \throw Error file_format if a triangle uses a vertex that is not finite; indices must be in
+///   range
 /// Cost: one pass over positions and normals; over all the mesh where vertices are left out.
 void leave_out_not_finite(const std::filesystem::path& path, MeshFile& surface,
                           const std::function<std::string(std::size_t vertex)>& place = {});

@@ -49,7 +49,8 @@ class MeshEncoder {
   virtual void vertices(ByteOutput& output, std::size_t section, const MeshPortion& portion) = 0;
   /// Called once per portion, after its vertices.
   virtual void triangles(ByteOutput& output, const MeshPortion& portion) = 0;
-  /// Adds what the format did to the mesh to the report of a file, whose counts are those of the mesh.
+  /// Adds what the format did to the mesh to the report of a file, whose counts are those of the
+  /// mesh.
   virtual void complete(MeshFileReport& /*report*/) const {}
 };
 

@@ -12,8 +12,8 @@ enum class DracoMethod : std::uint8_t {
   sequential,   ///< keeps the order of vertices and triangles; some three times as large
 };
 
-/// Coordinates become whole numbers of steps; a step is the longest side of the bounding box divided
-/// by 2^bits - 1, and no coordinate is off by more than half of it, float32 rounding aside.
+/// Coordinates become whole numbers of steps; a step is the longest side of the bounding box
+/// divided by 2^bits - 1, and no coordinate is off by more than half of it, float32 rounding aside.
 struct DracoOptions {
   /// 1 to 24; 0: as many as keep that half step within a thousandth of `cell_size`.
   int position_bits = 0;

@@ -9,10 +9,10 @@
 /// viewers would show something else, points and lines, primitives without positions, skins, morph
 /// targets, copies by EXT_mesh_gpu_instancing, extensions that are not known here, and what is not
 /// finite: normals, scalars, vertices of no triangle. Accessors without data are zero. Positions,
-/// normals and scalars may have any type that glTF allows for them. Normals, edge ids and scalars are
-/// kept where all primitives have them; scalars are attributes of one number whose name starts with
-/// an underscore, in small letters here. Buffers are within the file, in base64, or in files in the
-/// same folder or below; elsewhere where the options allow it.
+/// normals and scalars may have any type that glTF allows for them. Normals, edge ids and scalars
+/// are kept where all primitives have them; scalars are attributes of one number whose name starts
+/// with an underscore, in small letters here. Buffers are within the file, in base64, or in files
+/// in the same folder or below; elsewhere where the options allow it.
 ///
 /// It throws Error file_format also for sparse accessors, meshes that hang on no node, and by name
 /// for required extensions that are not known to leave geometry alone. The message names the part,

@@ -11,10 +11,10 @@
 
 namespace difmesh {
 
-/// Makes the same bytes as write_mesh() of the whole mesh. How many vertices and triangles come need
-/// not be known: what cannot be written in its place yet waits in temporary files without a name,
-/// beside the file or, for targets that are no regular files, where the system has such. The file
-/// appears under its name at finish() and not before; without finish(), nothing is left.
+/// Makes the same bytes as write_mesh() of the whole mesh. How many vertices and triangles come
+/// need not be known: what cannot be written in its place yet waits in temporary files without a
+/// name, beside the file or, for targets that are no regular files, where the system has such. The
+/// file appears under its name at finish() and not before; without finish(), nothing is left.
 ///
 /// What the file holds is told by the first portion that has vertices: normals, edge ids, the names
 /// of scalars. The others must have the same.
@@ -23,8 +23,8 @@ namespace difmesh {
 /// vertex too. Thread safety: none of one stream; several are independent.
 class MeshStream {
  public:
-  /// Opens the file. \throw Error invalid_argument for a format whose MeshFormat is not `streamed`, and
-  /// as write_mesh()
+  /// Opens the file. \throw Error invalid_argument for a format whose MeshFormat is not `streamed`,
+  /// and as write_mesh()
   explicit MeshStream(const std::filesystem::path& path, const WriteMeshOptions& options = {});
   ~MeshStream();
   MeshStream(MeshStream&&) noexcept;
