@@ -19,8 +19,8 @@ if [ ${#targets[@]} -eq 0 ]; then
 fi
 cmake --build --preset fuzz -j "$(nproc)" --target "${targets[@]/%/_fuzz}"
 
-# What a call frees stays in quarantine until long after it; more of it costs page faults. Deeper stacks of
-# allocations come with the program TARGET_replay of the preset asan.
+# What a call frees stays in quarantine until long after it; more of it costs page faults. The
+# program TARGET_replay of the preset asan shows deeper stacks of allocations.
 export ASAN_OPTIONS=quarantine_size_mb=16:malloc_context_size=3
 
 mkdir -p build/fuzz/found

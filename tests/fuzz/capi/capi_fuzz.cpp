@@ -1,5 +1,5 @@
-// Calls of the C interface with any numbers. The first byte of an input chooses the kind of call, the
-// rest what it is made with. Half of all bytes choose a reconstruction.
+// Calls the C interface with any numbers. The first byte of an input chooses the kind of call, the
+// others its arguments. Half of all first bytes choose a reconstruction.
 
 #include <iterator>
 

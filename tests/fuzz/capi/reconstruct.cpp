@@ -1,6 +1,6 @@
-// dif_reconstruct() and dif_field_planes() of fields of any layout, values and options; and
-// dif_reconstruct_block() with dif_mesh_weld(), which must give the same. What is accepted must give
-// a manifold mesh, closed where the sides close it.
+// Calls dif_reconstruct() and dif_field_planes() with fields of any layout, values and options, and
+// dif_reconstruct_block() with dif_mesh_weld(), which must give the same mesh. Meshes must be
+// manifold, and closed where the sides close them.
 
 #include <algorithm>
 #include <cmath>
