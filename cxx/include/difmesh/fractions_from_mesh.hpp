@@ -36,8 +36,9 @@ struct FractionsFromMeshOptions {
   Progress progress;  ///< may be empty; see options.hpp
 };
 
-/// Where in the grid a mesh covers space more than once, or negatively. Shares below 1e-12 of a
-/// cell are rounding and do not count; without check_edges, nor do those below the tolerance.
+/// Where in the grid a mesh covers space more than once, or negatively, or may do so. Shares below
+/// 1e-12 of a cell are rounding and do not count; without check_edges, nor do those below the
+/// tolerance.
 struct CoverReport {
   double volume = 0.0;      ///< in the unit of the grid; what is covered thrice counts twice
   std::int64_t cells = 0;   ///< that have some
@@ -58,6 +59,8 @@ struct FractionsFromMeshReport {
   double mesh_volume = 0.0;        ///< ∫w of the whole mesh, within the grid or not
   CoverReport overlap;             ///< ∫max(w - 1, 0): covered more than once
   CoverReport inverted;            ///< ∫max(-w, 0): pockets that are inside out
+  CoverReport undecided;           ///< where w was not found out: a bound for the error of Σγ|K|,
+                                   ///< of ∫max(w - 1, 0) and, in a cell, of γ
   struct Seconds {                 ///< wall time by phase
     double check = 0.0;            ///< vertices, indices, edges, volume
     double bin = 0.0;              ///< triangles to rows of cells
@@ -81,8 +84,10 @@ struct FractionsFromMesh {
 ///   Ω is where the winding number is 1 or more (see Overlaps; docs/method.md). Overlaps are found
 ///   and reported whatever the grid, also within a cell.
 /// - Pockets inside out (w < 0) of up to a thousandth of the volume in the grid are outside.
-/// - Cells in which surfaces cross are cut up: exact as others to 1e-12, but where more than 24
-///   triangles that are not one sheet meet within 1/64 of a cell; there by up to 4e-6 each.
+/// - Cells in which surfaces cross are cut up, the finer the more triangles they hold: exact to
+///   1e-12, or 1e-15 for each piece in the cell if that is more, and for what is `undecided`: usually
+///   nothing, but hundreds of surfaces that cross each other in one cell may need more effort than
+///   is granted for each of its pieces.
 /// - The grid cuts off what lies outside it. A mesh that surrounds the grid gives 1 everywhere, one
 ///   beside it 0.
 /// - Triangles, edges and vertices may lie exactly on faces of cells.
@@ -98,11 +103,13 @@ struct FractionsFromMesh {
 ///   range, an open mesh (an edge and its triangle are named, and where the grid sees the hole
 ///   along x the first column and its gap; without check_edges the latter alone), mixed orientation (two
 ///   triangles are named), a mesh that is inside out (see `flip`), or parts that are (a cell is
-///   named) or that overlap (Overlaps::refuse; a cell is named).
-/// Cost: O(pieces + cells), 50 to 150 ns per piece and up to 3 ns per cell on one core; 0.01 to 1
-/// ms per cell in which surfaces cross. Memory beyond the field: 53 bytes per vertex, 12 per
-/// triangle and 4 more for each layer of cells that it meets, and 1 MB per thread (more where rows
-/// have over 32,000 cells). Thread safety: concurrent calls are safe.
+///   named) or that overlap (Overlaps::refuse; a cell is named) or may do so by more than the
+///   tolerance, being undecided.
+/// Cost: O(pieces + cells), 50 to 150 ns per piece and up to 3 ns per cell on one core; 0.01 to 0.2
+/// ms per piece in cells in which surfaces cross, and never more than 10. Memory beyond the field:
+/// 53 bytes per vertex, 12 per triangle and 4 more for each layer of cells that it meets, and 1 MB
+/// per thread (more where rows have over 32,000 cells), and 1 kB for each piece of a cell in which
+/// surfaces cross. Thread safety: concurrent calls are safe.
 [[nodiscard]] FractionsFromMesh fractions_from_mesh(const Grid& grid,
                                                     std::span<const Vec3> positions,
                                                     std::span<const Triangle> triangles,

@@ -36,6 +36,7 @@ void RowFacts::merge(const RowFacts& other) noexcept {
   largest_gap = std::max(largest_gap, other.largest_gap);
   overlaps.merge(other.overlaps);
   inverted.merge(other.inverted);
+  undecided.merge(other.undecided);
 }
 
 ColumnSums::ColumnSums(std::int64_t rows, std::int64_t cells_per_row)
@@ -135,9 +136,16 @@ class ColumnSums::RowWriter {
     if (inverted) {
       out_.facts.inverted.note(from, cells, covered.inverted);
     }
-    if (rules_.overlaps == Overlaps::refuse &&
-        std::max(covered.again, covered.inverted) > rules_.tolerance) {
-      note(ColumnFault::Kind::winding, overlap ? covered.again : -covered.inverted);
+    if (covered.undecided > rules_.rounding) {
+      out_.facts.undecided.note(from, cells, covered.undecided);
+    }
+    if (rules_.overlaps == Overlaps::refuse) {
+      const double wrong = std::max(covered.again, covered.inverted);
+      if (wrong > rules_.tolerance) {
+        note(ColumnFault::Kind::winding, overlap ? covered.again : -covered.inverted);
+      } else if (wrong + covered.undecided > rules_.tolerance) {
+        note(ColumnFault::Kind::undecided, covered.undecided);
+      }
     }
     return rules_.overlaps != Overlaps::count && (overlap || inverted) ? covered.once : raw;
   }

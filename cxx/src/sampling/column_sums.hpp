@@ -17,8 +17,9 @@ namespace difmesh::detail {
 struct ColumnFault {
   enum class Kind : std::uint8_t {
     none,
-    gap,      ///< the areas over the whole column do not cancel: the mesh is open
-    winding,  ///< a cell is covered twice or more, or negatively, where that is refused
+    gap,        ///< the areas over the whole column do not cancel: the mesh is open
+    winding,    ///< a cell is covered twice or more, or negatively, where that is refused
+    undecided,  ///< or may be
   };
   Kind kind = Kind::none;
   std::int64_t x = 0;  ///< cell in the row; for gaps too, where they show first
@@ -49,6 +50,7 @@ struct RowFacts {
   double largest_gap = 0.0;
   MarkedCells overlaps;
   MarkedCells inverted;
+  MarkedCells undecided;
 
   void merge(const RowFacts& other) noexcept;
 };

@@ -14,6 +14,8 @@ namespace {
 constexpr double kSmall = 1e-15;
 // Rounding of a corner's distance from an edge.
 constexpr double kOverhang = 1e-14;
+// Cuts inside each other. Boxes that need more are better bisected, and the stack stays below 1 MB.
+constexpr int kDeepest = 400;
 
 using Point = std::array<double, 2>;  // y, z
 
@@ -30,7 +32,7 @@ struct Line {
 
 /// A convex part of the face of the box.
 struct Part {
-  static constexpr std::size_t kMost = 48;
+  static constexpr std::size_t kMost = 32;
 
   std::array<Point, kMost> corners{};
   std::size_t size = 0;
@@ -172,6 +174,20 @@ std::pair<Part, Part> split(const Part& part, const Line& line) {
   return sides;
 }
 
+/// Two parts along a chord, with fewer corners.
+std::pair<Part, Part> halves(const Part& part) {
+  std::pair<Part, Part> sides;
+  const std::size_t middle = part.size / 2;
+  for (std::size_t i = 0; i <= middle; ++i) {
+    sides.first.add(part.corners[i]);
+  }
+  for (std::size_t i = middle; i < part.size; ++i) {
+    sides.second.add(part.corners[i]);
+  }
+  sides.second.add(part.corners[0]);
+  return sides;
+}
+
 struct Range {
   double low;
   double high;
@@ -216,7 +232,7 @@ double winding_before(const CoveredBox& box, const Point& p) {
 
 class Arrangement {
  public:
-  explicit Arrangement(const CoveredBox& box) : box_(box) {
+  Arrangement(const CoveredBox& box, std::int64_t& effort) : box_(box), effort_(effort) {
     for (const CellPiece& piece : box.inside) {
       if (auto sheet = to_sheet(piece, box.sign)) {
         sheets_.push_back(std::move(*sheet));
@@ -224,7 +240,7 @@ class Arrangement {
     }
   }
 
-  Covered resolve() {
+  std::optional<Covered> resolve() {
     const Vec3& low = box_.box.low;
     const Vec3& high = box_.box.high;
     Part face;
@@ -236,105 +252,158 @@ class Arrangement {
     for (std::size_t i = 0; i < all.size(); ++i) {
       all[i] = i;
     }
-    cut_along_edges(face, all, 0);
-    return total_;
+    cut_along_edges(face, std::move(all), {});
+    return given_up_ ? std::nullopt : std::optional(total_);
   }
 
  private:
-  /// Cuts until each sheet covers all of a part or nothing; then along where sheets cross.
-  void cut_along_edges(const Part& part, std::vector<std::size_t> sheets, std::size_t first) {
-    if (part.size < 3) {
-      return;
-    }
-    for (std::size_t n = first; n < sheets.size();) {
-      const Line* cut = nullptr;
-      bool beside = false;
-      const Sheet& sheet = sheets_[sheets[n]];
-      for (const Line& edge : sheet.edges) {
-        const Range range = range_over(part, edge);
-        const bool along = sheet.edge_on && &edge == sheet.edges.data();
-        beside = beside || range.high <= kSmall || (along && range.low >= -kSmall);
-        cut = cut == nullptr && range.low < -kSmall && (along || !sheet.edge_on) ? &edge : cut;
-      }
-      if (beside) {
-        sheets.erase(sheets.begin() + static_cast<std::ptrdiff_t>(n));
-      } else if (cut != nullptr && can_split(part)) {
-        const auto [within, without] = split(part, *cut);
-        cut_along_edges(within, sheets, n);
-        sheets.erase(sheets.begin() + static_cast<std::ptrdiff_t>(n));
-        cut_along_edges(without, std::move(sheets), n);
-        return;
-      } else if (sheet.edge_on) {
-        sheets.erase(sheets.begin() + static_cast<std::ptrdiff_t>(n));
-      } else {
-        ++n;
-      }
-    }
-    cut_along_crossings(part, sheets, {1, 0});
+  using Sheets = std::vector<std::size_t>;
+
+  [[nodiscard]] bool give_up(int depth) {
+    given_up_ = given_up_ || effort_ < 0 || depth > kDeepest;
+    return given_up_;
   }
 
-  /// Pairs of sheets, (1,0), (2,0), (2,1), ..., from `pair` on. Each pair cuts a part once: where
-  /// sheets are steep, rounding may leave them crossing, over next to nothing.
-  void cut_along_crossings(const Part& part, const std::vector<std::size_t>& sheets,
-                           std::pair<std::size_t, std::size_t> pair) {
-    if (part.size < 3) {
+  /// How a sheet lies to a part: an edge of the sheet that cuts the part, or none; or beside it.
+  struct Fit {
+    const Line* cut = nullptr;
+    bool beside = false;
+  };
+  Fit fit(const Sheet& sheet, const Part& part) {
+    Fit fit;
+    for (const Line& edge : sheet.edges) {
+      const Range range = range_over(part, edge);
+      const bool along = sheet.edge_on && &edge == sheet.edges.data();
+      fit.beside = fit.beside || range.high <= kSmall || (along && range.low >= -kSmall);
+      const bool cuts = range.low < -kSmall && (along || !sheet.edge_on);
+      fit.cut = fit.cut == nullptr && cuts ? &edge : fit.cut;
+    }
+    effort_ -= static_cast<std::int64_t>(sheet.edges.size());
+    return fit;
+  }
+
+  /// Where in the cutting: the sheets before `n` cover all of the part.
+  struct Stage {
+    std::size_t n = 0;
+    int depth = 0;
+  };
+
+  /// Cuts until each sheet covers all of a part or nothing; then along where sheets cross.
+  void cut_along_edges(const Part& part, Sheets sheets, Stage stage) {
+    if (part.size < 3 || give_up(stage.depth)) {
       return;
     }
-    for (auto [n, m] = pair; n < sheets.size(); ++n, m = 0) {
-      for (; m < n; ++m) {
-        const Sheet& s = sheets_[sheets[n]];
-        const Sheet& t = sheets_[sheets[m]];
-        Line difference{s.height.through, s.height.a - t.height.a, s.height.b - t.height.b};
-        const double offset = s.offset - t.x(s.height.through);
-        const Range range = range_over(part, difference, offset);
-        if (range.low < -kSmall && range.high > kSmall && can_split(part)) {
-          // The line where the difference is 0, as one through a point of its own.
-          const double square = difference.a * difference.a + difference.b * difference.b;
-          difference.through[0] -= offset * difference.a / square;
-          difference.through[1] -= offset * difference.b / square;
-          const auto [above, below] = split(part, difference);
-          cut_along_crossings(above, sheets, {n, m + 1});
-          cut_along_crossings(below, sheets, {n, m + 1});
-          return;
+    ++stage.depth;
+    while (stage.n < sheets.size()) {
+      const auto place = sheets.begin() + static_cast<std::ptrdiff_t>(stage.n);
+      const Sheet& sheet = sheets_[*place];
+      const auto [cut, beside] = fit(sheet, part);
+      if (!beside && cut != nullptr && is_large(part)) {
+        const auto [one, other] = is_full(part) ? halves(part) : split(part, *cut);
+        cut_along_edges(one, sheets, stage);
+        if (!is_full(part)) {
+          sheets.erase(place);
         }
+        cut_along_edges(other, std::move(sheets), stage);
+        return;
       }
+      if (beside || sheet.edge_on) {
+        sheets.erase(place);
+      } else {
+        ++stage.n;
+      }
+    }
+    cut_along_crossings(part, sheets, stage.depth);
+  }
+
+  /// Where the difference of the heights of two sheets is 0, if a part lies on both sides of it.
+  std::optional<Line> crossing(const Sheet& s, const Sheet& t, const Part& part) {
+    --effort_;
+    Line difference{s.height.through, s.height.a - t.height.a, s.height.b - t.height.b};
+    const double offset = s.offset - t.x(s.height.through);
+    const Range range = range_over(part, difference, offset);
+    if (range.low >= -kSmall || range.high <= kSmall || !is_large(part)) {
+      return std::nullopt;
+    }
+    // As a line through a point of its own.
+    const double square = difference.a * difference.a + difference.b * difference.b;
+    difference.through[0] -= offset * difference.a / square;
+    difference.through[1] -= offset * difference.b / square;
+    return difference;
+  }
+
+  /// Sheets that do not cross their neighbours in the order at one point have this order all over a
+  /// part. Each pair cuts a part once: where sheets are steep, rounding may leave them crossing,
+  /// over next to nothing.
+  void cut_along_crossings(const Part& part, Sheets sheets, int depth) {
+    if (part.size < 3 || give_up(depth)) {
+      return;
+    }
+    sort_at(area_and_centre(part).centre, sheets);
+    for (std::size_t i = 1; i < sheets.size(); ++i) {
+      const auto line = crossing(sheets_[sheets[i - 1]], sheets_[sheets[i]], part);
+      const std::pair<std::size_t, std::size_t> pair = std::minmax(sheets[i - 1], sheets[i]);
+      if (!line || std::find(cut_.begin(), cut_.end(), pair) != cut_.end()) {
+        continue;
+      }
+      const auto [one, other] = is_full(part) ? halves(part) : split(part, *line);
+      const std::size_t before = cut_.size();
+      if (!is_full(part)) {
+        cut_.emplace_back(pair);
+      }
+      cut_along_crossings(one, sheets, depth + 1);
+      cut_along_crossings(other, std::move(sheets), depth + 1);
+      cut_.resize(before);
+      return;
     }
     integrate(part, sheets);
   }
 
-  static bool can_split(const Part& part) {
-    return part.size + 2 <= Part::kMost && area_and_centre(part).area > kSmall;
-  }
-
-  void integrate(const Part& part, const std::vector<std::size_t>& sheets) {
-    const AreaAndCentre prism = area_and_centre(part);
-    double winding = box_.base + winding_before(box_, prism.centre);
+  /// By their heights at a point.
+  void sort_at(const Point& p, Sheets& sheets) {
     crossings_.clear();
     for (const std::size_t n : sheets) {
-      const Sheet& sheet = sheets_[n];
-      crossings_.emplace_back(std::clamp(sheet.x(prism.centre), box_.box.low[0], box_.box.high[0]),
-                              sheet.step);
+      crossings_.push_back({sheets_[n].x(p), n});
     }
     std::sort(crossings_.begin(), crossings_.end());
+    for (std::size_t i = 0; i < sheets.size(); ++i) {
+      sheets[i] = crossings_[i].second;
+    }
+  }
+
+  static bool is_large(const Part& part) { return area_and_centre(part).area > kSmall; }
+
+  /// Rounding may let a line cross the boundary of a part more than twice.
+  static bool is_full(const Part& part) { return part.size + 8 > Part::kMost; }
+
+  /// \param sheets as a line along x meets them
+  void integrate(const Part& part, const Sheets& sheets) {
+    const AreaAndCentre prism = area_and_centre(part);
+    double winding = box_.base + winding_before(box_, prism.centre);
+    effort_ -= static_cast<std::int64_t>(box_.before.size());
     double from = box_.box.low[0];
-    for (const auto& [x, step] : crossings_) {
+    for (const std::size_t n : sheets) {
+      const double x = std::clamp(sheets_[n].x(prism.centre), box_.box.low[0], box_.box.high[0]);
       total_.add(prism.area * (x - from), winding);
-      winding += step;
+      winding += sheets_[n].step;
       from = x;
     }
     total_.add(prism.area * (box_.box.high[0] - from), winding);
   }
 
   const CoveredBox& box_;
+  std::int64_t& effort_;
+  bool given_up_ = false;
   std::vector<Sheet> sheets_;
-  std::vector<std::pair<double, double>> crossings_;
+  std::vector<std::pair<double, std::size_t>> crossings_;  ///< of a line along x with sheets
+  std::vector<std::pair<std::size_t, std::size_t>> cut_;   ///< sheets along whose line it was cut
   Covered total_;
 };
 
 }  // namespace
 
-Covered covered_volumes(const CoveredBox& box) {
-  return Arrangement(box).resolve();
+std::optional<Covered> covered_volumes(const CoveredBox& box, std::int64_t& effort) {
+  return Arrangement(box, effort).resolve();
 }
 
 }  // namespace difmesh::detail

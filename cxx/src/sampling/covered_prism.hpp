@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "difmesh/grid.hpp"
@@ -31,9 +32,10 @@ struct UnitBox {
 
 /// Volumes by the winding number w.
 struct Covered {
-  double once = 0.0;      ///< of {w >= 1}
-  double again = 0.0;     ///< the integral of max(w - 1, 0)
-  double inverted = 0.0;  ///< the integral of max(-w, 0)
+  double once = 0.0;       ///< of {w >= 1}
+  double again = 0.0;      ///< the integral of max(w - 1, 0)
+  double inverted = 0.0;   ///< the integral of max(-w, 0)
+  double undecided = 0.0;  ///< where w is not known; the others may be off by as much
 
   void add(double volume, double winding) {
     once += winding >= 1.0 ? volume : 0.0;
@@ -44,12 +46,13 @@ struct Covered {
     once += other.once;
     again += other.again;
     inverted += other.inverted;
+    undecided += other.undecided;
   }
 };
 
 /// Where the winding number, whose integral is known, takes two neighbouring values.
 [[nodiscard]] inline Covered from_sum(double volume, double sum) {
-  return {std::clamp(sum, 0.0, volume), std::max(sum - volume, 0.0), std::max(-sum, 0.0)};
+  return {std::clamp(sum, 0.0, volume), std::max(sum - volume, 0.0), std::max(-sum, 0.0), 0.0};
 }
 
 /// All that decides the winding number in a box: a line along x meets first pieces before the box
@@ -63,9 +66,11 @@ struct CoveredBox {
   double sign = 1.0;
 };
 
-/// Exact but for rounding, about 1e-15 of the box for each piece. The face of the box along x is
+/// Exact but for rounding, about 1e-15 of the cell for each piece. The face of the box along x is
 /// cut along the projected edges of the pieces, and along the lines where pieces meet, into convex
-/// parts over which nothing crosses. Cost grows fast with the number of pieces: mind to have few.
-[[nodiscard]] Covered covered_volumes(const CoveredBox& box);
+/// parts over which nothing crosses. Cost grows fast with the number of pieces.
+/// \param effort the steps that it may take, about 10 ns each; lowered by those that it took
+/// \return none where that is too few
+[[nodiscard]] std::optional<Covered> covered_volumes(const CoveredBox& box, std::int64_t& effort);
 
 }  // namespace difmesh::detail

@@ -178,6 +178,12 @@ std::string describe_cell(const Index3& cell, const Grid& grid) {
                   rounded_text(tolerance));
   }
   const double share = block.fault.value;
+  if (block.fault.kind == ColumnFault::Kind::undecided) {
+    throw_invalid(
+        "whether parts of the mesh overlap is undecided in " + rounded_text(share) +
+        " of the volume of " + describe_cell(block.cell, grid) +
+        ": too many triangles that are not one sheet meet there; smaller cells hold fewer");
+  }
   throw_invalid(std::string("parts of the mesh ") +
                 (share > 0.0 ? "overlap: " : "are inside out: ") + describe_cell(block.cell, grid) +
                 " has " + rounded_text(std::abs(share)) + " of its volume " +
@@ -268,6 +274,7 @@ void fill_report(const RowFacts& facts, const Grid& grid, FractionsFromMeshRepor
   report.fraction_volume = fraction_sum(facts) * grid.cell_volume();
   report.overlap = cover_report(facts.overlaps, grid);
   report.inverted = cover_report(facts.inverted, grid);
+  report.undecided = cover_report(facts.undecided, grid);
 }
 
 }  // namespace
