@@ -57,6 +57,9 @@ constexpr std::array<Named<Overlaps>, 3> kOverlaps{
 constexpr std::array<Named<ScalarType>, 2> kTypes{
     {{"float32", ScalarType::float32}, {"float64", ScalarType::float64}}};
 
+// A warning tells of undecided shares of a cell above this, the tolerance of fractions_from_mesh().
+constexpr double kUndecided = 1e-9;
+
 struct Request {
   std::string body;  ///< name of a shape, or path of a mesh
   std::string field_path;
@@ -81,6 +84,7 @@ struct Sample {
   std::optional<double> body_volume;
   CoverReport overlap;
   CoverReport inverted;
+  CoverReport undecided;
   std::int64_t unresolved_cells = 0;
   double largest_error_estimate = 0.0;
   std::vector<std::string> warnings;  ///< of the mesh's file
@@ -150,6 +154,7 @@ Sample sample_mesh(const Request& request, LongCall& long_call) {
     sample.body_volume = result.report.mesh_volume;
     sample.overlap = result.report.overlap;
     sample.inverted = result.report.inverted;
+    sample.undecided = result.report.undecided;
   } catch (const Error& error) {
     fail_mesh(request.body, error);
   }
@@ -179,6 +184,10 @@ void print_warnings(const Request& request, const Sample& sample) {
     const bool count = request.overlaps == Overlaps::count;
     warn("'" + request.body + "': pockets are inside out, " + extent_text(sample.inverted) +
          (count ? "; they count negatively" : "; they are outside"));
+  }
+  if (sample.undecided.largest > kUndecided) {
+    warn("'" + request.body + "': how often space is covered is undecided, " +
+         extent_text(sample.undecided) + "; the fractions may be off by as much");
   }
   if (sample.unresolved_cells > 0) {
     warn("'" + request.body + "': " + count_of(sample.unresolved_cells, "cell") +

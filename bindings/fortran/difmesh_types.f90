@@ -254,6 +254,10 @@ module difmesh_types
     real(c_double) :: overlap_high(3) = 0
     real(c_double) :: inverted_volume = 0
     integer(c_int64_t) :: inverted_cells = 0
+    real(c_double) :: undecided_volume = 0
+    integer(c_int64_t) :: undecided_cells = 0
+    real(c_double) :: largest_undecided = 0
+    integer(c_int64_t) :: undecided_cell(3) = 0
   end type
 
   type, bind(c), public :: dif_shape_options

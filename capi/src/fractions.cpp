@@ -118,6 +118,10 @@ dif_triangle_report to_report(const difmesh::FractionsFromMeshReport& report) {
   std::copy_n(report.overlap.high.data(), 3, result.overlap_high);
   result.inverted_volume = report.inverted.volume;
   result.inverted_cells = report.inverted.cells;
+  result.undecided_volume = report.undecided.volume;
+  result.undecided_cells = report.undecided.cells;
+  result.largest_undecided = report.undecided.largest;
+  std::copy_n(report.undecided.cell.data(), 3, result.undecided_cell);
   return result;
 }
 

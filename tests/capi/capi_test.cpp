@@ -583,6 +583,9 @@ TEST_CASE("overlapping parts of a mesh are united or refused or counted") {
   CHECK(report.overlap_high[2] == 4.0);
   CHECK(report.inverted_cells == 0);
   CHECK(report.inverted_volume == 0.0);
+  CHECK(report.undecided_cells == 0);
+  CHECK(report.undecided_volume == 0.0);
+  CHECK(report.largest_undecided == 0.0);
   dif_triangle_options options = test::prepared(dif_triangle_options_init);
   options.overlaps = DIF_OVERLAPS_COUNT;
   REQUIRE(dif_fractions_from_mesh(&grid, made, &options, nullptr, fractions.data()) == DIF_OK);

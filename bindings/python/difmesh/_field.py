@@ -45,6 +45,10 @@ class TriangleReport:
     overlap_high: tuple[float, float, float]
     inverted_volume: float  #: of pockets that are inside out, which are outside
     inverted_cells: int
+    undecided_volume: float  #: where it was not found out how often it is covered; bounds errors
+    undecided_cells: int
+    largest_undecided: float  #: as a share of a cell: a bound for the error of each fraction
+    undecided_cell: tuple[int, int, int]  #: (i, j, k) of the first with the largest
 
 
 @dataclass(frozen=True, eq=False)

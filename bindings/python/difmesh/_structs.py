@@ -158,6 +158,10 @@ class DifTriangleReport(Sized):
         ("overlap_high", c_double * 3),
         ("inverted_volume", c_double),
         ("inverted_cells", c_int64),
+        ("undecided_volume", c_double),
+        ("undecided_cells", c_int64),
+        ("largest_undecided", c_double),
+        ("undecided_cell", c_int64 * 3),
     ]
 
 

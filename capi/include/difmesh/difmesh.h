@@ -449,7 +449,7 @@ DIF_API dif_status dif_fractions_from_function(const dif_grid* grid, dif_functio
 enum {
   DIF_OVERLAPS_DEFAULT = 0, /* UNION */
   DIF_OVERLAPS_UNION = 1,   /* the share of a cell where the winding number is 1 or more */
-  DIF_OVERLAPS_REFUSE = 2,  /* INVALID_ARGUMENT; a cell is named */
+  DIF_OVERLAPS_REFUSE = 2,  /* INVALID_ARGUMENT, also where it is undecided; a cell is named */
   DIF_OVERLAPS_COUNT = 3    /* the winding number's mean in a cell: may exceed 1 or be negative */
 };
 
@@ -489,6 +489,11 @@ typedef struct dif_triangle_report {
   double overlap_high[3];
   double inverted_volume; /* of pockets that are inside out, which are outside */
   int64_t inverted_cells;
+  double undecided_volume; /* where it was not found out how often it is covered: a bound for the
+                              * error of fraction_volume and overlap_volume; usually 0 */
+  int64_t undecided_cells;
+  double largest_undecided;  /* as a share of a cell: a bound for the error of each fraction */
+  int64_t undecided_cell[3]; /* the first with the largest */
 } dif_triangle_report;
 
 /* Prepares an output struct. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */

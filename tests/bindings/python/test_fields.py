@@ -115,6 +115,8 @@ class Samples(unittest.TestCase):
         np.testing.assert_allclose(report.overlap_low, (0, 0, 0), atol=1e-14)
         np.testing.assert_allclose(report.overlap_high, (1, 1, 0.25), atol=1e-14)
         self.assertEqual((report.inverted_volume, report.inverted_cells), (0, 0))
+        self.assertEqual((report.undecided_volume, report.undecided_cells), (0, 0))
+        self.assertEqual((report.largest_undecided, report.undecided_cell), (0, (0, 0, 0)))
         united = difmesh.sample_mesh(mesh, 6, 0.25, -0.25, overlaps="union")
         np.testing.assert_array_equal(united.fractions, field.fractions)
         counted = difmesh.sample_mesh(mesh, 6, 0.25, -0.25, overlaps="count")
