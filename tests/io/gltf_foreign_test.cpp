@@ -341,6 +341,7 @@ TEST_CASE("gltf: a matrix that is no affine one is told") {
 TEST_CASE("gltf: a file that needs a later version is refused") {
   Builder builder;
   builder.square();
+  builder.primitive()["mode"] = 5;
   builder.json()["asset"] = {{"version", "2.1"}, {"minVersion", "2.0"}};
   CHECK(builder.read().warnings.empty());
   builder.json()["asset"]["minVersion"] = "2.1";
