@@ -68,6 +68,11 @@ bool has_area(const std::array<Vec3, 3>& corners) {
   return u[1] * v[2] != u[2] * v[1] || u[2] * v[0] != u[0] * v[2] || u[0] * v[1] != u[1] * v[0];
 }
 
+double length_between(const Vec3& from, const Vec3& to) {
+  const Vec3 edge{to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+  return std::sqrt(edge[0] * edge[0] + edge[1] * edge[1] + edge[2] * edge[2]);
+}
+
 class StlEncoder : public MeshEncoder {
  public:
   explicit StlEncoder(EncoderRequest request) : request_(std::move(request)) {}
@@ -102,8 +107,8 @@ class StlEncoder : public MeshEncoder {
         bytes.put(corner);
       }
       output.write(record.data(), record.size());
-      note_rounding(corners);
     }
+    note_rounding(positions, portion.triangles);
   }
 
   void complete(MeshFileReport& report) const override {
@@ -137,22 +142,30 @@ class StlEncoder : public MeshEncoder {
     }
   }
 
-  /// What float32 does to a triangle.
-  void note_rounding(const std::array<Vec3, 3>& exact) {
-    std::array<Vec3, 3> rounded{};
-    for (std::size_t c = 0; c < 3; ++c) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        rounded[c][axis] = static_cast<double>(static_cast<float>(exact[c][axis]));
-        position_error_ = std::max(position_error_, std::abs(exact[c][axis] - rounded[c][axis]));
+  /// What float32 does to the triangles. In a loop of its own, as the compiler keeps the numbers of
+  /// this one and those of the writing in registers then.
+  void note_rounding(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
+    double position_error = position_error_;
+    double edges = edges_;
+    std::int64_t collapsed = 0;
+    for (const Triangle& triangle : triangles) {
+      std::array<Vec3, 3> exact{};
+      std::array<Vec3, 3> rounded{};
+      for (std::size_t c = 0; c < 3; ++c) {
+        exact[c] = positions[triangle[c]];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          rounded[c][axis] = static_cast<double>(static_cast<float>(exact[c][axis]));
+          position_error = std::max(position_error, std::abs(exact[c][axis] - rounded[c][axis]));
+        }
       }
+      for (std::size_t c = 0; c < 3; ++c) {
+        edges += length_between(exact[c], exact[(c + 1) % 3]);
+      }
+      collapsed += has_area(exact) && !has_area(rounded) ? 1 : 0;
     }
-    for (std::size_t c = 0; c < 3; ++c) {
-      const Vec3& from = exact[c];
-      const Vec3& to = exact[(c + 1) % 3];
-      const Vec3 edge{to[0] - from[0], to[1] - from[1], to[2] - from[2]};
-      edges_ += std::sqrt(edge[0] * edge[0] + edge[1] * edge[1] + edge[2] * edge[2]);
-    }
-    collapsed_triangles_ += has_area(exact) && !has_area(rounded) ? 1 : 0;
+    position_error_ = position_error;
+    edges_ = edges;
+    collapsed_triangles_ += collapsed;
   }
 
   EncoderRequest request_;
