@@ -86,8 +86,8 @@ struct FractionsFromMesh {
 /// - Pockets inside out (w < 0) of up to a thousandth of the volume in the grid are outside.
 /// - Cells in which surfaces cross are cut up, the finer the more triangles they hold: exact to
 ///   1e-12, or 1e-15 for each piece in the cell if that is more, and for what is `undecided`: usually
-///   nothing, but hundreds of surfaces that cross each other in one cell may need more effort than
-///   is granted for each of its pieces.
+///   nothing, but twenty surfaces that cross within a ten-thousandth of a cell, or hundreds farther
+///   apart, may need more effort than is granted for each of its pieces.
 /// - The grid cuts off what lies outside it. A mesh that surrounds the grid gives 1 everywhere, one
 ///   beside it 0.
 /// - Triangles, edges and vertices may lie exactly on faces of cells.
@@ -106,7 +106,7 @@ struct FractionsFromMesh {
 ///   named) or that overlap (Overlaps::refuse; a cell is named) or may do so by more than the
 ///   tolerance, being undecided.
 /// Cost: O(pieces + cells), 50 to 150 ns per piece and up to 3 ns per cell on one core; 0.01 to 0.2
-/// ms per piece in cells in which surfaces cross, and never more than 10. Memory beyond the field:
+/// ms per piece in cells in which surfaces cross, and some 10 at most. Memory beyond the field:
 /// 53 bytes per vertex, 12 per triangle and 4 more for each layer of cells that it meets, and 1 MB
 /// per thread (more where rows have over 32,000 cells), and 1 kB for each piece of a cell in which
 /// surfaces cross. Thread safety: concurrent calls are safe.
