@@ -65,13 +65,14 @@ class ListFitter {
     const BlockField& field = plan_.field;
     const T* const centre = static_cast<const T*>(field.view.data) + field.element(cell);
     const double fraction = detail::fraction_of(*centre);
-    if (fraction == 0.0 || fraction == 1.0 || !plan_.is_for_kernel(cell)) {
+    const detail::KernelRow row(plan_, cell[1], cell[2]);
+    if (fraction == 0.0 || fraction == 1.0 || !row.serves(cell[0])) {
       plane = fit_alone(cell);
       return;
     }
     const int n = count_++;
     centre_[n] = centre;
-    reach_[n] = plan_.reach(cell);
+    reach_[n] = row.reach(cell[0]);
     cell_[n] = cell;
     plane_[n] = &plane;
     if (count_ == detail::kBatch) {

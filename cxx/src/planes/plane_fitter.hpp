@@ -88,21 +88,34 @@ struct FitterPlan {
              least_full<T>(of.purity_tolerance),
              most_empty<T>(of.purity_tolerance)},
         kernel(kernels().fit_planes(T{})) {}
+};
 
-  /// True if the kernel may be asked about a cell: its neighbours are in memory, and rows can be read
-  /// four abreast.
-  [[nodiscard]] bool is_for_kernel(const Index3& cell) const {
-    return has_kernel && field.margin(0, cell[0]) >= 1 && cell[0] + 2 < field.axes[0].high &&
-           field.margin(1, cell[1]) >= 1 && field.margin(2, cell[2]) >= 1;
+/// Which cells of a row the kernel may be asked about.
+class KernelRow {
+ public:
+  template <class T>
+  KernelRow(const FitterPlan<T>& plan, std::int64_t j, std::int64_t k)
+      : field_(plan.field),
+        is_inside_(plan.has_kernel && field_.margin(1, j) >= 1 && field_.margin(2, k) >= 1),
+        across_((field_.margin(1, j) >= kColumnReach ? 2U : 0U) |
+                (field_.margin(2, k) >= kColumnReach ? 4U : 0U)) {}
+
+  /// True if the rows around are in memory.
+  [[nodiscard]] bool is_inside() const { return is_inside_; }
+  /// True if the neighbours of a cell are in memory, and rows can be read four abreast.
+  [[nodiscard]] bool serves(std::int64_t i) const {
+    return is_inside_ && field_.margin(0, i) >= 1 && i + 2 < field_.axes[0].high;
   }
   /// Of CellBatch.
-  [[nodiscard]] std::uint8_t reach(const Index3& cell) const {
-    unsigned bits = cell[0] + kAbreast - 2 < field.axes[0].high ? kEightAbreast : 0U;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      bits |= field.margin(axis, cell[axis]) >= kColumnReach ? 1U << axis : 0U;
-    }
-    return static_cast<std::uint8_t>(bits);
+  [[nodiscard]] std::uint8_t reach(std::int64_t i) const {
+    return static_cast<std::uint8_t>((field_.margin(0, i) >= kColumnReach ? 1U : 0U) | across_ |
+                                     (i + kAbreast - 2 < field_.axes[0].high ? kEightAbreast : 0U));
   }
+
+ private:
+  const BlockField& field_;
+  bool is_inside_;
+  unsigned across_;
 };
 
 /// Fits planes to cells, in batches where no side of the domain is near. One per thread.
@@ -116,12 +129,9 @@ class PlaneFitter {
     const BlockField& field = plan_.field;
     const Index3 before{field.block.offset[0] - 1, j - 1 + field.block.offset[1],
                         k - 1 + field.block.offset[2]};
-    const bool inside_row =
-        plan_.has_kernel && field.margin(1, before[1]) >= 1 && field.margin(2, before[2]) >= 1;
-    const auto across = static_cast<unsigned>((field.margin(1, before[1]) >= kColumnReach ? 2 : 0) |
-                                              (field.margin(2, before[2]) >= kColumnReach ? 4 : 0));
+    const KernelRow kernel_row(plan_, before[1], before[2]);
     const T* row = static_cast<const T*>(field.view.data);
-    if (inside_row) {
+    if (kernel_row.is_inside()) {
       row += field.element({field.axes[0].low, before[1], before[2]});
     }
     const CrossedAcross crossed(nodes_, j, k);
@@ -129,14 +139,11 @@ class PlaneFitter {
     for (std::int64_t w = 0; w < nodes_.words(); ++w) {
       for (std::uint64_t left = words[w]; left != 0; left &= left - 1, ++plane) {
         const std::int64_t i = 64 * w + std::countr_zero(left) + before[0];
-        const std::int64_t from_side = field.margin(0, i);
-        // Rows are read four abreast.
-        if (!inside_row || from_side < 1 || i + 2 >= field.axes[0].high) {
+        if (!kernel_row.serves(i)) {
           fit_alone({i, before[1], before[2]}, *plane);
           continue;
         }
-        const unsigned reach = (from_side >= kColumnReach ? 1U : 0U) | across |
-                               (i + kAbreast - 2 < field.axes[0].high ? kEightAbreast : 0U);
+        const std::uint8_t reach = kernel_row.reach(i);
         const T* const centre = row + (i - field.axes[0].low);
         if (last_line == nullptr || centre - last_line >= kLine) {
           last_line = centre;
@@ -146,7 +153,7 @@ class PlaneFitter {
         waiting_.centre[n] = centre;
         waiting_.plane[n] = plane;
         waiting_.cell[n] = {i, before[1], before[2]};
-        waiting_.reach[n] = static_cast<std::uint8_t>(reach);
+        waiting_.reach[n] = reach;
         if (waiting_.count == kWaiting) {
           fit_waiting(kBatch);
         }
