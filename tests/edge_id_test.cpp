@@ -2,42 +2,19 @@
 
 #include <doctest/doctest.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <map>
-#include <set>
-#include <vector>
 
 #include "difmesh/reconstruct.hpp"
+#include "support/blocks.hpp"
 #include "support/fields.hpp"
 
 namespace {
 
-using difmesh::Block;
 using difmesh::DualEdgeName;
 using difmesh::Index3;
 using difmesh::Side;
 namespace test = difmesh::test;
-
-// Blocks that cover a grid, cut at these cells of each axis.
-std::vector<Block> blocks_of(const Index3& dims, const std::vector<std::int64_t> (&cuts)[3]) {
-  std::vector<Block> blocks;
-  for (std::size_t k = 0; k <= cuts[2].size(); ++k) {
-    for (std::size_t j = 0; j <= cuts[1].size(); ++j) {
-      for (std::size_t i = 0; i <= cuts[0].size(); ++i) {
-        const std::size_t part[3] = {i, j, k};
-        Block block;
-        for (std::size_t t = 0; t < 3; ++t) {
-          block.offset[t] = part[t] == 0 ? 0 : cuts[t][part[t] - 1];
-          const std::int64_t end = part[t] == cuts[t].size() ? dims[t] : cuts[t][part[t]];
-          block.dims[t] = end - block.offset[t];
-        }
-        blocks.push_back(block);
-      }
-    }
-  }
-  return blocks;
-}
 
 }  // namespace
 
@@ -83,29 +60,12 @@ TEST_CASE("edge ids: each vertex of blocks is owned by one of those that have it
     options.edge_ids = true;
     const auto whole = difmesh::reconstruct(field.view(), grid, options).mesh;
     std::map<std::uint64_t, int> owners;
-    for (Block block : blocks_of(field.dims, {{2, 3}, {4}, {1}})) {
-      // All of the field stands by as ghosts; on periodic sides what lies beyond it is there twice.
-      std::vector<double> values;
-      Index3 size;
-      for (std::size_t t = 0; t < 3; ++t) {
-        const std::int64_t beyond = side == Side::periodic ? difmesh::kGhostLayers : 0;
-        block.ghost_low[t] = block.offset[t] + beyond;
-        block.ghost_high[t] = field.dims[t] - block.offset[t] - block.dims[t] + beyond;
-        size[t] = field.dims[t] + 2 * beyond;
-      }
-      test::OwnedField source = field;
-      for (std::int64_t n = 0; n < size[0] * size[1] * size[2]; ++n) {
-        Index3 at{n % size[0], n / size[0] % size[1], n / size[0] / size[1]};
-        for (std::size_t t = 0; t < 3; ++t) {
-          const std::int64_t shift = (size[t] - field.dims[t]) / 2;
-          at[t] = (at[t] - shift + 10 * field.dims[t]) % field.dims[t];
-        }
-        values.push_back(source.at(at[0], at[1], at[2]));
-      }
-      const auto view = difmesh::FieldView::x_fastest(values.data(), size);
-      const auto part = difmesh::reconstruct_block(view, block, grid, options).mesh;
+    for (const test::BlockData& data : test::cut_up(field, {{{2, 3}, {4}, {1}}}, options)) {
+      const auto part =
+          difmesh::reconstruct_block(data.cells.view(), data.block, grid, options).mesh;
       for (const std::uint64_t id : part.edge_ids) {
-        owners[id] += difmesh::owns(block, field.dims, difmesh::edge_of(field.dims, id)) ? 1 : 0;
+        owners[id] +=
+            difmesh::owns(data.block, field.dims, difmesh::edge_of(field.dims, id)) ? 1 : 0;
       }
     }
     CHECK(owners.size() == whole.edge_ids.size());

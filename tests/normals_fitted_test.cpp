@@ -77,6 +77,18 @@ double misfit(OwnedField& field, const Index3& cell, const Vec3& normal) {
   return sum;
 }
 
+/// Fractions of an ellipsoid in a grid of 16 x 15 x 14 unit cubes.
+OwnedField ellipsoid(const Grid& grid) {
+  const auto shape = difmesh::make_shape({.kind = difmesh::ShapeKind::ellipsoid,
+                                          .centre = {8.1, 7.4, 6.9},
+                                          .rotation_degrees = {11.0, 23.0, 37.0},
+                                          .semi_axes = {6.0, 5.0, 4.0}});
+  OwnedField field(grid.dims);
+  const auto fractions = difmesh::fractions_from_shape(grid, shape).fractions;
+  std::copy(fractions.begin(), fractions.end(), field.values.begin());
+  return field;
+}
+
 /// Cells between this one and the nearest side.
 std::int64_t margin(const Index3& cell, const Grid& grid) {
   std::int64_t least = cell[0];
@@ -156,13 +168,7 @@ TEST_CASE("fitted normals: surfaces of spheres are of second order") {
 
 TEST_CASE("fitted normals: no turned plane suits the neighbours better than that of lvira") {
   const Grid grid{.dims = {16, 15, 14}};
-  const auto shape = difmesh::make_shape({.kind = difmesh::ShapeKind::ellipsoid,
-                                          .centre = {8.1, 7.4, 6.9},
-                                          .rotation_degrees = {11.0, 23.0, 37.0},
-                                          .semi_axes = {6.0, 5.0, 4.0}});
-  OwnedField field(grid.dims);
-  const auto fractions = difmesh::fractions_from_shape(grid, shape).fractions;
-  std::copy(fractions.begin(), fractions.end(), field.values.begin());
+  OwnedField field = ellipsoid(grid);
   Options options;
   options.normals = Normals::lvira;
   const Fitted fitted = fit(field, grid, options);
@@ -202,13 +208,7 @@ TEST_CASE("fitted normals: no turned plane suits the neighbours better than that
 
 TEST_CASE("fitted normals: the misfit is never above that of myc") {
   const Grid grid{.dims = {16, 15, 14}};
-  const auto shape = difmesh::make_shape({.kind = difmesh::ShapeKind::ellipsoid,
-                                          .centre = {8.1, 7.4, 6.9},
-                                          .rotation_degrees = {11.0, 23.0, 37.0},
-                                          .semi_axes = {6.0, 5.0, 4.0}});
-  OwnedField field(grid.dims);
-  const auto fractions = difmesh::fractions_from_shape(grid, shape).fractions;
-  std::copy(fractions.begin(), fractions.end(), field.values.begin());
+  OwnedField field = ellipsoid(grid);
   const auto misfits = [&](Normals normals) {
     Options options;
     options.normals = normals;

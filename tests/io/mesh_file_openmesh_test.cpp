@@ -7,11 +7,13 @@
 
 #include "difmesh/io/mesh_file.hpp"
 #include "io/files.hpp"
+#include "support/parametric_meshes.hpp"
 
 namespace {
 
 using difmesh::Mesh;
 using difmesh::Vec3;
+using difmesh::test::parametric_mesh;
 using test::TempFolder;
 
 struct DoubleTraits : OpenMesh::DefaultTraits {
@@ -32,19 +34,15 @@ class Quiet {
 
 /// A bumpy sheet, open, with normals.
 Mesh sheet(std::uint32_t n) {
+  const auto sheet = parametric_mesh({n, n}, [](std::uint32_t i, std::uint32_t j) {
+    return Vec3{0.1 * i, 0.1 * j, 0.05 * std::sin(1.7 * i) * std::cos(0.9 * j)};
+  });
   Mesh mesh;
-  for (std::uint32_t j = 0; j < n; ++j) {
-    for (std::uint32_t i = 0; i < n; ++i) {
-      mesh.positions.push_back({0.1 * i, 0.1 * j, 0.05 * std::sin(1.7 * i) * std::cos(0.9 * j)});
-      mesh.normals.push_back({0.6 * std::sin(1.0 * i), 0.6 * std::cos(1.0 * i), 0.8});
-    }
-  }
-  for (std::uint32_t j = 0; j + 1 < n; ++j) {
-    for (std::uint32_t i = 0; i + 1 < n; ++i) {
-      const std::uint32_t a = j * n + i;
-      mesh.triangles.push_back({a, a + 1, a + n + 1});
-      mesh.triangles.push_back({a, a + n + 1, a + n});
-    }
+  mesh.positions.assign(sheet.positions.begin(), sheet.positions.end());
+  mesh.triangles.assign(sheet.triangles.begin(), sheet.triangles.end());
+  for (std::uint32_t v = 0; v < n * n; ++v) {
+    const double i = v % n;
+    mesh.normals.push_back({0.6 * std::sin(i), 0.6 * std::cos(i), 0.8});
   }
   return mesh;
 }

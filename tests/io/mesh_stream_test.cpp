@@ -11,6 +11,7 @@
 
 #include "difmesh/io/mesh_file.hpp"
 #include "io/files.hpp"
+#include "support/parametric_meshes.hpp"
 
 namespace {
 
@@ -20,7 +21,9 @@ using difmesh::MeshFileReport;
 using difmesh::MeshPortion;
 using difmesh::MeshStream;
 using difmesh::Triangle;
+using difmesh::Vec3;
 using difmesh::WriteMeshOptions;
+using difmesh::test::parametric_mesh;
 using test::check_error;
 using test::TempFolder;
 
@@ -30,21 +33,19 @@ constexpr const char* kStreamed[]{".ply", ".obj", ".off", ".stl"};
 Mesh full_sheet(std::uint32_t n) {
   Mesh mesh;
   mesh.scalars = {{"height", {}}, {"Other_1", {}}};
+  const auto sheet = parametric_mesh({n, n}, [](std::uint32_t i, std::uint32_t j) {
+    const double x = 0.1 * i;
+    const double y = j / 3.0;
+    return Vec3{x, y, std::sin(x * y)};
+  });
+  mesh.positions.assign(sheet.positions.begin(), sheet.positions.end());
+  mesh.triangles.assign(sheet.triangles.begin(), sheet.triangles.end());
   for (std::uint32_t v = 0; v < n * n; ++v) {
-    const double x = 0.1 * (v % n);
-    const double y = v / n / 3.0;
-    mesh.positions.push_back({x, y, std::sin(x * y)});
+    const auto& [x, y, z] = mesh.positions[v];
     mesh.normals.push_back({std::cos(x), std::sin(x), 0.1});
     mesh.edge_ids.push_back(std::uint64_t{v} * 4294967311U);
-    mesh.scalars[0].values.push_back(std::sin(x * y));
+    mesh.scalars[0].values.push_back(z);
     mesh.scalars[1].values.push_back(-1.0 / (1 + v));
-  }
-  for (std::uint32_t j = 0; j + 1 < n; ++j) {
-    for (std::uint32_t i = 0; i + 1 < n; ++i) {
-      const std::uint32_t v = j * n + i;
-      mesh.triangles.push_back({v, v + 1, v + n + 1});
-      mesh.triangles.push_back({v, v + n + 1, v + n});
-    }
   }
   return mesh;
 }

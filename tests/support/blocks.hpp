@@ -55,24 +55,31 @@ inline BlockData cut_out(const OwnedField& field, const Index3& low, const Index
 /// Where blocks begin along each axis, beside 0, ascending.
 using Cuts = std::array<std::vector<std::int64_t>, 3>;
 
-/// The field reconstructed in blocks, welded.
-inline Mesh in_cut_blocks(const OwnedField& field, const Grid& grid, Cuts cuts,
-                          const Options& options) {
+/// The blocks of a cut field, each with its ghost layers, in an order that is not that of the mesh.
+inline std::vector<BlockData> cut_up(const OwnedField& field, Cuts cuts, const Options& options) {
   for (std::size_t a = 0; a < 3; ++a) {
     cuts[a].insert(cuts[a].begin(), 0);
     cuts[a].push_back(field.dims[a]);
   }
-  std::vector<Mesh> meshes;
-  // Blocks in an order that is not that of the mesh.
+  std::vector<BlockData> blocks;
   for (std::size_t i = cuts[0].size() - 1; i-- > 0;) {
     for (std::size_t j = cuts[1].size() - 1; j-- > 0;) {
       for (std::size_t k = cuts[2].size() - 1; k-- > 0;) {
         const Index3 low{cuts[0][i], cuts[1][j], cuts[2][k]};
         const Index3 high{cuts[0][i + 1], cuts[1][j + 1], cuts[2][k + 1]};
-        const BlockData data = cut_out(field, low, high, options);
-        meshes.push_back(reconstruct_block(data.cells.view(), data.block, grid, options).mesh);
+        blocks.push_back(cut_out(field, low, high, options));
       }
     }
+  }
+  return blocks;
+}
+
+/// The field reconstructed in blocks, welded.
+inline Mesh in_cut_blocks(const OwnedField& field, const Grid& grid, const Cuts& cuts,
+                          const Options& options) {
+  std::vector<Mesh> meshes;
+  for (const BlockData& data : cut_up(field, cuts, options)) {
+    meshes.push_back(reconstruct_block(data.cells.view(), data.block, grid, options).mesh);
   }
   return weld(meshes, grid);
 }
