@@ -57,9 +57,6 @@ constexpr std::array<Named<Overlaps>, 3> kOverlaps{
 constexpr std::array<Named<ScalarType>, 2> kTypes{
     {{"float32", ScalarType::float32}, {"float64", ScalarType::float64}}};
 
-// A warning tells of undecided shares of a cell above this, the tolerance of fractions_from_mesh().
-constexpr double kUndecided = 1e-9;
-
 struct Request {
   std::string body;  ///< name of a shape, or path of a mesh
   std::string field_path;
@@ -185,7 +182,7 @@ void print_warnings(const Request& request, const Sample& sample) {
     warn("'" + request.body + "': pockets are inside out, " + extent_text(sample.inverted) +
          (count ? "; they count negatively" : "; they are outside"));
   }
-  if (sample.undecided.largest > kUndecided) {
+  if (sample.undecided.largest > FractionsFromMeshOptions{}.tolerance) {
     warn("'" + request.body + "': how often space is covered is undecided, " +
          extent_text(sample.undecided) + "; the fractions may be off by as much");
   }

@@ -139,24 +139,17 @@ GltfDocument describe(const std::filesystem::path& path, const Mesh& mesh,
   return describe_used(path, part ? *part : mesh, options);
 }
 
+template <bool kIsBinary>
 MeshFileReport write_gltf(const std::filesystem::path& path, const Mesh& mesh,
-                          const WriteMeshOptions& options, bool is_binary) {
+                          const WriteMeshOptions& options) {
   const GltfDocument document = describe(path, mesh, options);
   AtomicFile file(path);
+  const Sink sink = [&](const void* data, std::size_t bytes) { file.write(data, bytes); };
+  kIsBinary ? put_glb(sink, path, document) : put_text(sink, path, document);
   MeshFileReport report = document.report();
-  const Sink sink = [&](const void* data, std::size_t bytes) {
-    file.write(data, bytes);
-    report.bytes += static_cast<std::int64_t>(bytes);
-  };
-  is_binary ? put_glb(sink, path, document) : put_text(sink, path, document);
+  report.bytes = file.size();
   file.commit();
   return report;
-}
-
-template <bool kIsBinary>
-MeshFileReport write_as(const std::filesystem::path& path, const Mesh& mesh,
-                        const WriteMeshOptions& options) {
-  return write_gltf(path, mesh, options, kIsBinary);
 }
 
 constexpr MeshFormat gltf_facts(std::string_view extension) {
@@ -173,9 +166,9 @@ constexpr MeshFormat gltf_facts(std::string_view extension) {
 }  // namespace
 
 constinit const FormatPart glb_format{
-    .facts = gltf_facts(".glb"), .read = read_gltf, .write = write_as<true>};
+    .facts = gltf_facts(".glb"), .read = read_gltf, .write = write_gltf<true>};
 constinit const FormatPart gltf_format{
-    .facts = gltf_facts(".gltf"), .read = read_gltf, .write = write_as<false>};
+    .facts = gltf_facts(".gltf"), .read = read_gltf, .write = write_gltf<false>};
 
 std::uint64_t glb_size(const std::filesystem::path& path, std::uint64_t json_bytes,
                        std::uint64_t data_bytes) {

@@ -49,7 +49,11 @@ struct DualEdgeName {
 
 /// All ids of a grid are below this.
 [[nodiscard]] constexpr std::uint64_t edge_id_end(const Index3& dims) noexcept {
-  return edge_id(dims, {{-1, -1, dims[2] + 1}, 0});
+  std::uint64_t nodes = 1;
+  for (const std::int64_t cells : dims) {
+    nodes *= static_cast<std::uint64_t>(cells + 2);
+  }
+  return 3 * nodes;
 }
 
 /// True for the one block that owns an edge, of blocks that cover the grid without overlap: the block

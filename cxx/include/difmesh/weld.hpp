@@ -17,7 +17,8 @@ namespace difmesh {
 /// \throw Error invalid_argument if a mesh has vertices without edge_ids, an id is outside the grid,
 ///   only some meshes have normals, or blocks are not disjoint, for instance one given twice: two
 ///   meshes have triangles between the same cells; too_large beyond 2^32 - 1 vertices.
-/// Cost: linear in the size of the meshes for few of them, as each is sorted by itself. Thread safety: pure function.
+/// Cost: linear in the size of the meshes for few of them, as each is sorted by itself. Thread
+/// safety: pure function.
 [[nodiscard]] Mesh weld(std::span<const Mesh> meshes, const Grid& grid);
 /// The same for meshes that lie apart; none may be NULL.
 [[nodiscard]] Mesh weld_pointers(std::span<const Mesh* const> meshes, const Grid& grid);

@@ -20,7 +20,6 @@ class ArenaLease {
   ArenaLease& operator=(const ArenaLease&) = delete;
 
   [[nodiscard]] int concurrency() const { return concurrency_; }
-  tbb::task_arena& operator*() { return *arena_; }
   tbb::task_arena* operator->() { return arena_.get(); }
 
  private:

@@ -3,6 +3,7 @@
 #include <limits>
 #include <new>
 #include <string>
+#include <utility>
 
 #include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
@@ -118,8 +119,10 @@ Reconstruction reconstruct(const FieldView& field, const Grid& grid, const Optio
   const Block whole{{0, 0, 0}, grid.dims, {0, 0, 0}, {0, 0, 0}};
   Reconstruction result = run(detail::make_block_field(field, whole, grid, options), options);
   if (may_lack_full_cells(field, grid, options, result.report)) {
-    const std::string doubt = doubt_of_scale(ValueView(field));
-    result.report.warnings.insert(result.report.warnings.end(), doubt.empty() ? 0 : 1, doubt);
+    std::string doubt = doubt_of_scale(ValueView(field));
+    if (!doubt.empty()) {
+      result.report.warnings.push_back(std::move(doubt));
+    }
   }
   return result;
 }
