@@ -12,12 +12,40 @@
 #include "difmesh/edge_id.hpp"
 #include "difmesh/error.hpp"
 #include "difmesh/float_environment.hpp"
+#include "difmesh/printable.hpp"
 
 namespace difmesh {
 namespace {
 
 [[noreturn]] void fail(std::size_t mesh, const std::string& what) {
   throw Error(ErrorCode::invalid_argument, "weld: mesh " + std::to_string(mesh) + " " + what);
+}
+
+// The values of a scalar, or nullptr.
+const Array<double>* find_scalar(const Mesh& mesh, const std::string& name) {
+  for (const VertexScalar& scalar : mesh.scalars) {
+    if (scalar.name == name) {
+      return &scalar.values;
+    }
+  }
+  return nullptr;
+}
+
+// All have the scalars of the first one that has vertices.
+void check_scalars(std::span<const Mesh* const> meshes, std::size_t first, std::size_t m) {
+  if (meshes[m]->scalars.size() != meshes[first]->scalars.size()) {
+    fail(m, "differs from mesh " + std::to_string(first) + " in its scalars");
+  }
+  for (const VertexScalar& scalar : meshes[first]->scalars) {
+    const Array<double>* const values = find_scalar(*meshes[m], scalar.name);
+    if (values == nullptr) {
+      fail(m, "has no scalar '" + printable(scalar.name) + "', which mesh " +
+                  std::to_string(first) + " has");
+    }
+    if (values->size() != meshes[m]->positions.size()) {
+      fail(m, "has '" + printable(scalar.name) + "' for some vertices only");
+    }
+  }
 }
 
 void check(std::span<const Mesh* const> meshes, const Index3& dims) {
@@ -39,6 +67,7 @@ void check(std::span<const Mesh* const> meshes, const Index3& dims) {
       if (mesh.normals.empty() != meshes[first]->normals.empty()) {
         fail(m, "differs from mesh " + std::to_string(first) + " in having normals or not");
       }
+      check_scalars(meshes, first, m);
     }
     for (const std::uint64_t id : mesh.edge_ids) {
       if (id >= end) {
@@ -53,8 +82,9 @@ void check(std::span<const Mesh* const> meshes, const Index3& dims) {
   }
 }
 
-// The lower node of the dual cell that a triangle lies in, as the id of its edge in x: the low corner
-// of the box around its edges. No triangle is flat on a face of its cell, so the box is the cell.
+// The lower node of the dual cell that a triangle lies in, as the id of its edge in x: the low
+// corner of the box around its edges. No triangle is flat on a face of its cell, so the box is the
+// cell.
 std::uint64_t cell_of(const std::array<std::uint64_t, 3>& ids, const Index3& dims) {
   Index3 low = edge_of(dims, ids[0]).lower;
   for (const std::uint64_t id : {ids[1], ids[2]}) {
@@ -72,8 +102,8 @@ struct PlacedTriangle {
   std::uint32_t mesh;
 };
 
-// Sorts a list of parts, those between `ends` that follow each other. Parts that are sorted, as those of
-// reconstruct_block() are, are merged only. Stable.
+// Sorts a list of parts, those between `ends` that follow each other. Parts that are sorted, as
+// those of reconstruct_block() are, are merged only. Stable.
 template <class List, class Less>
 void merge_parts(List& list, std::vector<std::size_t> ends, const Less& less) {
   const auto at = [&](std::size_t n) { return list.begin() + static_cast<std::ptrdiff_t>(n); };
@@ -162,6 +192,11 @@ Mesh weld_pointers(std::span<const Mesh* const> meshes, const Grid& grid) {
     if (!mesh.normals.empty()) {
       result.normals.resize(result.edge_ids.size());
     }
+    if (!mesh.positions.empty() && result.scalars.empty()) {
+      for (const VertexScalar& scalar : mesh.scalars) {
+        result.scalars.push_back({scalar.name, Array<double>(result.edge_ids.size())});
+      }
+    }
     number.resize(mesh.positions.size());
     auto place = result.edge_ids.cbegin();
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
@@ -171,6 +206,12 @@ Mesh weld_pointers(std::span<const Mesh* const> meshes, const Grid& grid) {
       result.positions[n] = mesh.positions[v];
       if (!mesh.normals.empty()) {
         result.normals[n] = mesh.normals[v];
+      }
+    }
+    for (VertexScalar& scalar : result.scalars) {
+      const Array<double>* const values = find_scalar(mesh, scalar.name);
+      for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        scalar.values[number[v]] = (*values)[v];
       }
     }
     for (const Triangle& t : mesh.triangles) {
