@@ -35,7 +35,7 @@ PUBLIC = {
     "cells": ["cell_planes"],
     "mesh": ["curvature", "measure", "mesh", "mesh_portion", "smoothing",
              "vertex_normals"],
-    "surface": ["reconstruct", "weld"],
+    "surface": ["reconstruct", "surface_builder", "weld"],
     "sampling": ["constrained_smoothing", "fractions_from_function", "fractions_from_mesh", "mollify"],
     "shapes": ["shapes"],
 }

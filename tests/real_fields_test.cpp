@@ -13,6 +13,8 @@
 #include "difmesh/measure.hpp"
 #include "difmesh/reconstruct.hpp"
 #include "support/blocks.hpp"
+#include "support/reports.hpp"
+#include "support/slabs.hpp"
 
 using namespace difmesh;
 
@@ -162,7 +164,7 @@ TEST_CASE("real fields: a torn film loses what no contour at one half can hold")
   }
 }
 
-TEST_CASE("real fields: blocks give the whole field to the last bit") {
+TEST_CASE("real fields: blocks and slabs give the whole field to the last bit") {
   for (const auto& field : {load_drops(), load_dam_break(), load_vortex()}) {
     if (!field) {
       continue;
@@ -172,9 +174,17 @@ TEST_CASE("real fields: blocks give the whole field to the last bit") {
       options.sides.fill(side);
       options.edge_ids = true;
       options.vertex_normals = true;
-      const Mesh whole = reconstruct(field->cells.view(), field->grid, options).mesh;
-      CHECK(test::same_bits(test::in_blocks(field->cells, field->grid, {29, 17, 41}, options),
-                            whole));
+      const Reconstruction whole = reconstruct(field->cells.view(), field->grid, options);
+      const Reconstruction joined =
+          test::in_blocks(field->cells, field->grid, {29, 17, 41}, options);
+      CHECK(test::same_bits(joined.mesh, whole.mesh));
+      CHECK(test::difference(joined.report, whole.report, 1e-11) == "");
+      for (const std::int64_t thickness : {1, 7, 40}) {
+        const Reconstruction built =
+            test::in_slabs(field->cells.view(), field->grid, options, thickness);
+        CHECK(test::same_bits(built.mesh, whole.mesh));
+        CHECK(test::difference(built.report, whole.report) == "");
+      }
     }
   }
 }

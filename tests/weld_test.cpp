@@ -12,6 +12,7 @@
 #include "support/blocks.hpp"
 #include "support/fields.hpp"
 #include "support/near_pure.hpp"
+#include "support/reports.hpp"
 
 using namespace difmesh;
 using difmesh::test::OwnedField;
@@ -22,12 +23,14 @@ void check_blocks(const OwnedField& field, const Index3& cut, Options options) {
   const Grid grid{field.dims, {0.1, -0.7, 3.3}, {0.3, 0.1, 0.7}};
   options.edge_ids = true;
   options.vertex_normals = true;
-  const Mesh whole = reconstruct(field.view(), grid, options).mesh;
-  REQUIRE(whole.triangles.size() > 100);
+  const Reconstruction whole = reconstruct(field.view(), grid, options);
+  REQUIRE(whole.mesh.triangles.size() > 100);
   CAPTURE(static_cast<int>(options.sides[0]));
   CAPTURE(static_cast<int>(options.placement));
   CAPTURE(cut[0]);
-  CHECK(test::same_bits(test::in_blocks(field, grid, cut, options), whole));
+  const Reconstruction joined = test::in_blocks(field, grid, cut, options);
+  CHECK(test::same_bits(joined.mesh, whole.mesh));
+  CHECK(test::difference(joined.report, whole.report, 1e-12) == "");
 }
 
 std::string weld_error(const std::vector<Mesh>& meshes, const Grid& grid) {
@@ -92,9 +95,11 @@ TEST_CASE("weld: cells as good as pure have the same plane for every block that 
   options.vertex_normals = true;
   for (const double tolerance : {1e-6, 0.1}) {
     options.purity_tolerance = tolerance;
-    const Mesh whole = reconstruct(field.view(), grid, options).mesh;
-    REQUIRE(whole.triangles.size() >= 8);
-    CHECK(test::same_bits(test::in_blocks(field, grid, {1, 3, 1}, options), whole));
+    const Reconstruction whole = reconstruct(field.view(), grid, options);
+    REQUIRE(whole.mesh.triangles.size() >= 8);
+    const Reconstruction joined = test::in_blocks(field, grid, {1, 3, 1}, options);
+    CHECK(test::same_bits(joined.mesh, whole.mesh));
+    CHECK(test::difference(joined.report, whole.report, 1e-12) == "");
   }
 }
 
@@ -136,12 +141,50 @@ TEST_CASE("weld: the whole to the last bit of fields that are nearly pure howeve
     field = n % 3 == 0 ? test::near_half_noise(dims, n)
                        : test::near_pure_noise(dims, options.purity_tolerance, n);
     const Grid grid{dims, {0.1, -0.7, 3.3}, {0.3, 0.1, 0.7}};
-    const Mesh whole = reconstruct(field.view(), grid, options).mesh;
-    with_surface += whole.triangles.empty() ? 0 : 1;
+    const Reconstruction whole = reconstruct(field.view(), grid, options);
+    with_surface += whole.mesh.triangles.empty() ? 0 : 1;
     CAPTURE(n);
-    REQUIRE(test::same_bits(test::in_cut_blocks(field, grid, cuts, options), whole));
+    const Reconstruction joined = test::in_cut_blocks(field, grid, cuts, options);
+    REQUIRE(test::same_bits(joined.mesh, whole.mesh));
+    REQUIRE(test::difference(joined.report, whole.report, 1e-10) == "");
   }
   CHECK(with_surface > 1000);
+}
+
+TEST_CASE("weld: scalars come along where all meshes have them") {
+  const OwnedField field = test::white_noise({8, 7, 12}, 3);
+  const Grid grid{field.dims, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}};
+  std::vector<Mesh> meshes;
+  for (const test::BlockData& data : test::cut_up(field, {{{}, {}, {4, 9}}}, {})) {
+    Mesh mesh = reconstruct_block(data.cells.view(), data.block, grid).mesh;
+    // Numbers that follow from the vertex, so that those of different blocks agree.
+    mesh.scalars = {{"height", {}}, {"id", {}}};
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+      mesh.scalars[0].values.push_back(mesh.positions[v][2]);
+      mesh.scalars[1].values.push_back(static_cast<double>(mesh.edge_ids[v]));
+    }
+    meshes.push_back(std::move(mesh));
+  }
+  // Names count, not places.
+  std::swap(meshes[1].scalars[0], meshes[1].scalars[1]);
+  const Mesh whole = weld(meshes, grid);
+  REQUIRE(whole.scalars.size() == 2);
+  CHECK(whole.scalars[0].name == "height");
+  CHECK(whole.scalars[1].name == "id");
+  for (const VertexScalar& scalar : whole.scalars) {
+    REQUIRE(scalar.values.size() == whole.positions.size());
+  }
+  for (std::size_t v = 0; v < whole.positions.size(); ++v) {
+    CHECK(whole.scalars[0].values[v] == whole.positions[v][2]);
+    CHECK(whole.scalars[1].values[v] == static_cast<double>(whole.edge_ids[v]));
+  }
+  meshes[2].scalars.pop_back();
+  CHECK(weld_error(meshes, grid) == "weld: mesh 2 differs from mesh 0 in its scalars");
+  meshes[2].scalars.push_back({"Id", meshes[2].scalars[0].values});
+  CHECK(weld_error(meshes, grid) == "weld: mesh 2 has no scalar 'id', which mesh 0 has");
+  meshes[2].scalars[1].name = "id";
+  meshes[2].scalars[1].values.pop_back();
+  CHECK(weld_error(meshes, grid) == "weld: mesh 2 has 'id' for some vertices only");
 }
 
 TEST_CASE("weld: missing ghosts are named") {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "difmesh/reconstruct.hpp"
@@ -13,7 +14,8 @@
 
 namespace difmesh::test {
 
-/// The cells of a block with its ghost layers, copied out of the whole field. Beyond a periodic side
+/// The cells of a block with its ghost layers, copied out of the whole field. Beyond a periodic
+/// side
 // the ghosts are wrapped.
 struct BlockData {
   Block block;
@@ -74,20 +76,24 @@ inline std::vector<BlockData> cut_up(const OwnedField& field, Cuts cuts, const O
   return blocks;
 }
 
-/// The field reconstructed in blocks, welded.
-inline Mesh in_cut_blocks(const OwnedField& field, const Grid& grid, const Cuts& cuts,
-                          const Options& options) {
+/// The field reconstructed in blocks, welded, and their reports merged.
+inline Reconstruction in_cut_blocks(const OwnedField& field, const Grid& grid, const Cuts& cuts,
+                                    const Options& options) {
   std::vector<Mesh> meshes;
+  Reconstruction whole;
   for (const BlockData& data : cut_up(field, cuts, options)) {
-    meshes.push_back(reconstruct_block(data.cells.view(), data.block, grid, options).mesh);
+    Reconstruction part = reconstruct_block(data.cells.view(), data.block, grid, options);
+    meshes.push_back(std::move(part.mesh));
+    merge(whole.report, part.report);
   }
-  return weld(meshes, grid);
+  whole.mesh = weld(meshes, grid);
+  return whole;
 }
 
 /// The field reconstructed in eight blocks that meet at the cut, or fewer if it lies at the end of
 /// an axis.
-inline Mesh in_blocks(const OwnedField& field, const Grid& grid, const Index3& cut,
-                      const Options& options) {
+inline Reconstruction in_blocks(const OwnedField& field, const Grid& grid, const Index3& cut,
+                                const Options& options) {
   Cuts cuts;
   for (std::size_t a = 0; a < 3; ++a) {
     if (cut[a] < field.dims[a]) {

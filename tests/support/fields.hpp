@@ -28,6 +28,20 @@ struct OwnedField {
   [[nodiscard]] FieldView view() const { return FieldView::x_fastest(values.data(), dims); }
 };
 
+/// The cells of a view of float64.
+inline OwnedField copy_of(const FieldView& view) {
+  OwnedField field(view.dims);
+  const auto* const cells = static_cast<const double*>(view.data);
+  for (std::int64_t k = 0; k < view.dims[2]; ++k) {
+    for (std::int64_t j = 0; j < view.dims[1]; ++j) {
+      for (std::int64_t i = 0; i < view.dims[0]; ++i) {
+        field.at(i, j, k) = cells[i * view.strides[0] + j * view.strides[1] + k * view.strides[2]];
+      }
+    }
+  }
+  return field;
+}
+
 /// Independent values, even over [0,1].
 inline OwnedField white_noise(const Index3& dims, std::uint64_t seed) {
   OwnedField field(dims);

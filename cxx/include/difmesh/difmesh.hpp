@@ -23,6 +23,7 @@
 #include "difmesh/reconstruct.hpp"
 #include "difmesh/shapes.hpp"
 #include "difmesh/smoothing.hpp"
+#include "difmesh/surface_builder.hpp"
 #include "difmesh/values.hpp"
 #include "difmesh/version.hpp"
 #include "difmesh/vertex_normals.hpp"

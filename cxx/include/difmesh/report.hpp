@@ -8,7 +8,8 @@
 
 namespace difmesh {
 
-/// Facts about one reconstruction. Counts are of the block where a block was reconstructed.
+/// Facts about one reconstruction. Of a block, they are what it adds to the whole: counts are of
+/// its own cells and of the edges it owns (edge_id.hpp), so that each is counted once; see merge().
 struct Report {
   std::int64_t cells = 0;              ///< cells read
   std::int64_t interfacial_cells = 0;  ///< tolerance < γ < 1 - tolerance
@@ -24,19 +25,29 @@ struct Report {
   /// Solved edges along which the window's fraction falls somewhere, so that more than one position
   /// may be half full.
   std::int64_t non_monotone_edges = 0;
-  bool closed = true;            ///< no boundary edge; an empty mesh is closed
-  double enclosed_volume = 0.0;  ///< signed volume inside; 0 where not closed
-  struct Seconds {               ///< wall time by phase
-    double classify = 0.0;       ///< the one pass over the field: checks, sums, inside bits
-    double normals = 0.0;        ///< normals and planes
-    double count = 0.0;          ///< counting and allocation of the output
-    double vertices = 0.0;       ///< placement
-    double triangles = 0.0;      ///< connectivity, volume
+  /// No boundary edge; an empty mesh is closed. Of a block: none on a side of the domain.
+  bool closed = true;
+  /// Signed volume inside; 0 where not closed. Of a block: the signed volume between its triangles
+  /// and the middle of the grid in z, whose sum over the blocks of a closed surface is the volume
+  /// inside.
+  double enclosed_volume = 0.0;
+  struct Seconds {           ///< wall time by phase
+    double classify = 0.0;   ///< the one pass over the field: checks, sums, inside bits
+    double normals = 0.0;    ///< normals and planes
+    double count = 0.0;      ///< counting and allocation of the output
+    double vertices = 0.0;   ///< placement
+    double triangles = 0.0;  ///< connectivity, volume
     double total = 0.0;
   } seconds;
   /// What a user should know though it is no error, one English sentence each: that integers look
   /// like a mask or a segmentation (values.hpp, doubt_of_scale()). Blocks have none.
   std::vector<std::string> warnings;
 };
+
+/// Adds the facts about a part to those about other parts of the same whole, starting from a
+/// Report{}. Parts that cover the grid without overlap give the report of the whole field: the same
+/// counts, and sums that differ by rounding. Seconds add up; what is warned of twice is said once.
+/// Cost: negligible. Thread safety: concurrent calls on different wholes are safe.
+void merge(Report& whole, const Report& part);
 
 }  // namespace difmesh

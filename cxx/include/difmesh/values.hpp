@@ -88,8 +88,8 @@ struct ValueView {
         strides(field.strides) {}
 };
 
-/// The values that stand for the fractions 0 and 1; between them fractions are linear. `full` may be
-/// the smaller one.
+/// The values that stand for the fractions 0 and 1; between them fractions are linear. `full` may
+/// be the smaller one.
 struct ValueRange {
   double empty = 0.0;
   double full = 1.0;
@@ -104,8 +104,8 @@ void fractions_from_values(const ValueView& values, const ValueRange& range, dou
 void fractions_from_values(const ValueView& values, const ValueRange& range, float* fractions);
 
 /// Writes 255, that is 1, where a value is one of `labels`, else 0; one per cell, x fastest. Exact
-/// for integers of all sizes; a float is a label where it is equal to it. Errors and cost: likewise,
-/// and invalid_argument where there are no labels.
+/// for integers of all sizes; a float is a label where it is equal to it. Errors and cost:
+/// likewise, and invalid_argument where there are no labels.
 void fractions_from_labels(const ValueView& values, std::span<const std::int64_t> labels,
                            std::uint8_t* fractions);
 
@@ -116,13 +116,15 @@ struct ValueExtremes {
 /// Of all values but NaN; nothing where there are no others. Errors and cost: likewise.
 [[nodiscard]] std::optional<ValueExtremes> extremes_of(const ValueView& values);
 
+/// What reconstruct() names as the remedy of such a doubt.
+inline constexpr std::string_view kScaleRemedy = "a full value or labels";
 /// Says in a sentence that integers are hardly shares of the largest value of their type, which
 /// counts as full where nothing else is said: "the highest value is 200, and 255 of uint8 counts as
 /// full unless `remedy` are given". So it is where the largest value does not occur, some value is
 /// above 0, and none reaches half of it or there are at most 16 different ones, as in masks and
-/// segmentations. Otherwise, and for floats, "". Errors: likewise. Cost: one pass at most, which ends
-/// at the first full cell.
+/// segmentations. Otherwise, and for floats, "". Errors: likewise. Cost: one pass at most, which
+/// ends at the first full cell.
 [[nodiscard]] std::string doubt_of_scale(const ValueView& values,
-                                         std::string_view remedy = "a full value or labels");
+                                         std::string_view remedy = kScaleRemedy);
 
 }  // namespace difmesh

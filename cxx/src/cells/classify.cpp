@@ -22,14 +22,13 @@ struct Statistics {
   std::int64_t interfacial = 0;
   std::int64_t clamped = 0;
   double overshoot = 0.0;
-  double sum = 0.0;
+  double sum = 0.0;             // of the part of a slab at hand
   std::int64_t first_bad = -1;  // cell number in the block with its ghosts, in the order z, y, x
 
   void add(const Statistics& other) {
     interfacial += other.interfacial;
     clamped += other.clamped;
     overshoot = std::max(overshoot, other.overshoot);
-    sum += other.sum;
     note_bad(other.first_bad);
   }
   void note_bad(std::int64_t number) {
@@ -49,8 +48,8 @@ class RowClassifier {
     }
   }
 
-  // Cells [from, to) of a row in memory: calls visit(place, bits, count) for each group, the first at
-  // place `from`. `number` is that of the row's first cell.
+  // Cells [from, to) of a row in memory: calls visit(place, bits, count) for each group, the first
+  // at place `from`. `number` is that of the row's first cell.
   template <class Visit>
   void row(const T* cells, std::int64_t stride, std::int64_t from, std::int64_t to,
            std::int64_t number, Statistics& statistics, const Visit& visit) const {
@@ -321,13 +320,20 @@ class BeyondFiller {
   End ends_[2]{};
 };
 
-// To the next row.
-void step(Index3& start, const Index3& dims) {
-  if (++start[1] == dims[1]) {
-    start[1] = 0;
-    ++start[2];
-  }
-}
+// The rows of a field in parts of its slabs. Each part has a sum of its own, and these are added in
+// their order, so that the sum over a field is the same to the last bit however slabs are given.
+struct SlabParts {
+  explicit SlabParts(const Index3& dims)
+      : rows(std::max<std::int64_t>(1, (1 << 16) / dims[0])),
+        per_slab((dims[1] + rows - 1) / rows),
+        count(per_slab * dims[2]),
+        at_once(std::max<std::int64_t>(1, rows / dims[1])) {}
+
+  std::int64_t rows;  // of a part; fewer in the last of a slab
+  std::int64_t per_slab;
+  std::int64_t count;
+  std::int64_t at_once;  // parts that a thread takes
+};
 
 }  // namespace
 
@@ -346,34 +352,43 @@ ClassifiedNodes classify(const BlockField& field, const FieldLimits& limits, dou
   result.row_ends.resize(static_cast<std::size_t>(field.block.dims[1] * field.block.dims[2]));
   BeyondFiller beyond(field, nodes);
   const Index3& dims = field.view.dims;
-  const std::int64_t rows = dims[1] * dims[2];
-  const std::int64_t grain = std::max<std::int64_t>(1, (1 << 16) / dims[0]);
-  std::vector<Statistics> portions(static_cast<std::size_t>((rows + grain - 1) / grain));
+  const SlabParts parts(dims);
+  std::vector<double> sums(static_cast<std::size_t>(parts.count));
+  std::vector<Statistics> portions(
+      static_cast<std::size_t>((parts.count + parts.at_once - 1) / parts.at_once));
   with_scalar(field.view.type, [&](auto type) {
     using T = decltype(type);
     const RowClassifier<T> classifier(field.purity_tolerance, limits.overshoot_bound);
-    phases.run(weight, rows, grain, [&](std::int64_t begin, std::int64_t end) {
-      Statistics& statistics = portions[static_cast<std::size_t>(begin / grain)];
-      Index3 start{0, begin % dims[1], begin / dims[1]};
-      for (std::int64_t row = begin; row < end; ++row, step(start, dims)) {
-        const std::int64_t j = start[1] - field.block.ghost_low[1];
-        const std::int64_t k = start[2] - field.block.ghost_low[2];
-        const bool in_block =
-            j >= 0 && j < field.block.dims[1] && k >= 0 && k < field.block.dims[2];
-        const std::int64_t interfacial_before = statistics.interfacial;
-        classify_row<T>(field, classifier, start, in_block ? &nodes : nullptr, statistics);
-        if (in_block) {
-          if (limits.layer_planes.is_limited() && limits.layer_planes.has_row(j, k)) {
-            limits.layer_planes.add(statistics.interfacial - interfacial_before);
-          }
-          beyond.set_ends(j + 1, k + 1);
-          nodes.summarise_row(j + 1, k + 1);
-          result.row_ends[static_cast<std::size_t>(k * field.block.dims[1] + j)] = interfacial_ends(
-              static_cast<const T*>(field.view.data) +
-                  field.block.ghost_low[0] * field.view.strides[0] +
-                  start[1] * field.view.strides[1] + start[2] * field.view.strides[2],
-              field.block.dims[0], field);
+    const auto classify_one = [&](const Index3& start, Statistics& statistics) {
+      const std::int64_t j = start[1] - field.block.ghost_low[1];
+      const std::int64_t k = start[2] - field.block.ghost_low[2];
+      const bool in_block = j >= 0 && j < field.block.dims[1] && k >= 0 && k < field.block.dims[2];
+      const std::int64_t interfacial_before = statistics.interfacial;
+      classify_row<T>(field, classifier, start, in_block ? &nodes : nullptr, statistics);
+      if (!in_block) {
+        return;
+      }
+      if (limits.layer_planes.is_limited() && limits.layer_planes.has_row(j, k)) {
+        limits.layer_planes.add(statistics.interfacial - interfacial_before);
+      }
+      beyond.set_ends(j + 1, k + 1);
+      nodes.summarise_row(j + 1, k + 1);
+      result.row_ends[static_cast<std::size_t>(k * field.block.dims[1] + j)] =
+          interfacial_ends(static_cast<const T*>(field.view.data) +
+                               field.block.ghost_low[0] * field.view.strides[0] +
+                               start[1] * field.view.strides[1] + start[2] * field.view.strides[2],
+                           field.block.dims[0], field);
+    };
+    phases.run(weight, parts.count, parts.at_once, [&](std::int64_t begin, std::int64_t end) {
+      Statistics& statistics = portions[static_cast<std::size_t>(begin / parts.at_once)];
+      for (std::int64_t part = begin; part < end; ++part) {
+        statistics.sum = 0.0;
+        Index3 start{0, part % parts.per_slab * parts.rows, part / parts.per_slab};
+        for (const std::int64_t to = std::min(dims[1], start[1] + parts.rows); start[1] < to;
+             ++start[1]) {
+          classify_one(start, statistics);
         }
+        sums[static_cast<std::size_t>(part)] = statistics.sum;
       }
     });
   });
@@ -385,11 +400,13 @@ ClassifiedNodes classify(const BlockField& field, const FieldLimits& limits, dou
     throw_bad_cell(field, all.first_bad, limits.overshoot_bound);
   }
   beyond.fill();
-  report.cells = field.block.dims[0] * field.block.dims[1] * field.block.dims[2];
-  report.interfacial_cells = all.interfacial;
-  report.clamped_cells = all.clamped;
-  report.largest_overshoot = all.overshoot;
-  report.fraction_volume = all.sum * field.grid.cell_volume();
+  report.cells += field.block.dims[0] * field.block.dims[1] * field.block.dims[2];
+  report.interfacial_cells += all.interfacial;
+  report.clamped_cells += all.clamped;
+  report.largest_overshoot = std::max(report.largest_overshoot, all.overshoot);
+  for (const double sum : sums) {
+    report.fraction_volume += sum * field.grid.cell_volume();
+  }
   return result;
 }
 

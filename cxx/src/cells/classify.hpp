@@ -11,7 +11,8 @@ namespace difmesh::detail {
 
 struct ClassifiedNodes {
   NodeBits nodes;
-  /// interfacial_ends() of each row of the block's cells, by j + dims[1] k: later the cells are no longer at hand.
+  /// interfacial_ends() of each row of the block's cells, by j + dims[1] k: later the cells are no
+  /// longer at hand.
   Array<std::uint8_t> row_ends;
 };
 
@@ -31,8 +32,8 @@ struct FieldLimits {
 };
 
 /// Node bits of the block, with the nodes beyond the sides of the domain taken from the cells they
-/// stand for. Fills the report's facts about the field. \throw Error invalid_value naming the first
-/// bad cell in the order z, y, x; OutOfMemory by the limits
+/// stand for. Adds the facts about the field to the report. \throw Error invalid_value naming the
+/// first bad cell in the order z, y, x; OutOfMemory by the limits
 [[nodiscard]] ClassifiedNodes classify(const BlockField& field, const FieldLimits& limits,
                                        double weight, Phases& phases, Report& report);
 

@@ -94,16 +94,28 @@ double BlockField::fraction(const Index3& resolved) const {
   });
 }
 
-BlockField make_block_field(const FieldView& field, const Block& block, const Grid& grid,
-                            const Options& options) {
-  validate(grid);
-  check_options(options);
+void check_view(const FieldView& field) {
   if (field.data == nullptr) {
     fail("field: no data");
   }
   if (field.type > ScalarType::uint16) {
     fail("field: unknown element type");
   }
+}
+
+void check_block(const Block& block, const Grid& grid, const Options& options) {
+  validate(grid);
+  check_options(options);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    (void)check_axis(axis, block, grid, options.sides);
+  }
+}
+
+BlockField make_block_field(const FieldView& field, const Block& block, const Grid& grid,
+                            const Options& options) {
+  validate(grid);
+  check_options(options);
+  check_view(field);
   BlockField result;
   result.grid = grid;
   result.block = block;

@@ -82,8 +82,8 @@ struct BlockField {
     return (cell[0] - axes[0].low) * view.strides[0] + (cell[1] - axes[1].low) * view.strides[1] +
            (cell[2] - axes[2].low) * view.strides[2];
   }
-  /// Cells in memory between an index of an axis and the nearer end of what is there; negative beyond
-  /// the ends.
+  /// Cells in memory between an index of an axis and the nearer end of what is there; negative
+  /// beyond the ends.
   [[nodiscard]] std::int64_t margin(std::size_t axis, std::int64_t index) const {
     return std::min(index - axes[axis].low, axes[axis].high - 1 - index);
   }
@@ -96,6 +96,10 @@ struct BlockField {
   }
 };
 
+/// Checks that a field is there and has a known type. \throw Error
+void check_view(const FieldView& field);
+/// Checks block, grid and options against each other. \throw Error
+void check_block(const Block& block, const Grid& grid, const Options& options);
 /// Checks field, block, grid and options against each other. \throw Error
 [[nodiscard]] BlockField make_block_field(const FieldView& field, const Block& block,
                                           const Grid& grid, const Options& options);

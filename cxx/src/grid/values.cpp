@@ -10,6 +10,7 @@
 
 #include "difmesh/error.hpp"
 #include "difmesh/float_environment.hpp"
+#include "grid/scale_doubt.hpp"
 
 namespace difmesh {
 namespace {
@@ -77,74 +78,6 @@ std::vector<T> labels_of_type(std::span<const std::int64_t> labels) {
   std::sort(possible.begin(), possible.end());
   return possible;
 }
-
-/// The highest value, if `values` are hardly shares of the largest T; see doubt_of_scale().
-template <class T>
-class ScaleDoubt {
- public:
-  explicit ScaleDoubt(const ValueView& values) : values_(values) {}
-
-  [[nodiscard]] std::optional<T> highest() {
-    const T* const cells = static_cast<const T*>(values_.data);
-    for (std::int64_t k = 0; k < values_.dims[2]; ++k) {
-      for (std::int64_t j = 0; j < values_.dims[1]; ++j) {
-        if (is_refuted(cells + j * values_.strides[1] + k * values_.strides[2])) {
-          return std::nullopt;
-        }
-      }
-    }
-    return highest_ > T{0} ? std::optional<T>(highest_) : std::nullopt;
-  }
-
- private:
-  static constexpr T kFull = std::numeric_limits<T>::max();
-  static constexpr std::size_t kFew = 16;
-  static constexpr std::int64_t kRun = 64;
-
-  [[nodiscard]] bool is_refuted(const T* row) {
-    const std::int64_t count = values_.dims[0];
-    const std::int64_t stride = values_.strides[0];
-    std::int64_t i = 0;
-    while (i < count) {
-      if (stride == 1 && i + kRun <= count && is_known_run(row + i)) {
-        i += kRun;
-        continue;
-      }
-      for (const std::int64_t end = std::min(i + kRun, count); i < end; ++i) {
-        if (is_refuted_by(row[i * stride])) {
-          return true;
-        }
-      }
-    }
-    return false;
-  }
-  /// Whether all are what the last one was: most of a mask. The compiler compares in vectors.
-  [[nodiscard]] bool is_known_run(const T* run) const {
-    bool same = found_ > 0;
-    for (std::int64_t i = 0; i < kRun; ++i) {
-      same &= run[i] == last_;
-    }
-    return same;
-  }
-  [[nodiscard]] bool is_refuted_by(T value) {
-    last_ = value;
-    highest_ = found_ == 0 ? value : std::max(highest_, value);
-    const auto end = few_.begin() + static_cast<std::ptrdiff_t>(std::min(found_, kFew));
-    if (found_ <= kFew && std::find(few_.begin(), end, value) == end) {
-      if (found_ < kFew) {
-        few_[found_] = value;
-      }
-      ++found_;
-    }
-    return highest_ == kFull || (found_ > kFew && highest_ > kFull / 2);
-  }
-
-  const ValueView& values_;
-  std::array<T, kFew> few_{};  ///< the first different ones
-  std::size_t found_ = 0;      ///< how many there are, up to kFew + 1
-  T last_{};
-  T highest_{};
-};
 
 }  // namespace
 
@@ -218,11 +151,9 @@ std::string doubt_of_scale(const ValueView& values, std::string_view remedy) {
   std::string sentence;
   with_value_type(values.type, [&]<class T>(T) {
     if constexpr (std::is_integral_v<T>) {
-      if (const std::optional<T> highest = ScaleDoubt<T>(values).highest()) {
-        sentence = "the highest value is " + std::to_string(*highest) + ", and " +
-                   std::to_string(std::numeric_limits<T>::max()) + " of " + name_of(values.type) +
-                   " counts as full unless " + std::string(remedy) + " are given";
-      }
+      detail::ScaleDoubt<T> doubt;
+      doubt.add(values);
+      sentence = doubt.sentence(values.type, remedy);
     }
   });
   return sentence;

@@ -18,6 +18,10 @@ struct BlockCells {
   [[nodiscard]] bool is_row(std::int64_t j, std::int64_t k) const {
     return j >= 1 && k >= 1 && j <= last[1] && k <= last[2];
   }
+  /// True if the row is the block's own, not a next block's. \pre is_row(j, k)
+  [[nodiscard]] bool is_own_row(std::int64_t j, std::int64_t k) const {
+    return j <= dims[1] && k <= dims[2];
+  }
   /// True if all cells of the row are outermost ones.
   [[nodiscard]] bool is_outermost(std::int64_t j, std::int64_t k) const {
     return j == 1 || k == 1 || j >= dims[1] || k >= dims[2];

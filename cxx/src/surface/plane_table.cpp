@@ -33,6 +33,22 @@ class Flagger {
     if (!cells_.is_row(j, k)) {
       return 0;
     }
+    std::uint32_t count = flag_seen_row(j, k, row);
+    if (cells_.is_own_row(j, k)) {
+      for_each_unseen_end(j, k, [&](std::int64_t i) {
+        if (count == 0) {
+          std::fill_n(row, nodes_.words(), 0);
+        }
+        count += is_set(row, i) ? 0U : 1U;
+        set(row, i);
+      });
+    }
+    return count;
+  }
+
+ private:
+  // Those with a crossed edge among the nodes, and along open sides the interfacial ones.
+  std::uint32_t flag_seen_row(std::int64_t j, std::int64_t k, std::uint64_t* row) const {
     const bool is_outermost = cells_.is_outermost(j, k);
     const bool is_layer = is_outermost && (in_layer(1, j) || in_layer(2, k));
     const bool has_open_ends = !is_layer && (open_[0][0] || open_[0][1]);
@@ -70,7 +86,32 @@ class Flagger {
     return static_cast<std::uint32_t>(count_bits(row, words));
   }
 
- private:
+  // Calls visit(i) for cells of the block at the upper ends of crossed edges that come from cells
+  // before the block, which its nodes do not include.
+  template <class Visit>
+  void for_each_unseen_end(std::int64_t j, std::int64_t k, const Visit& visit) const {
+    const auto is_inside = [](const T& value) { return fraction_of(value) >= 0.5; };
+    const std::int64_t stride = field_.view.strides[0];
+    const T* const here = cells_of(j, k);
+    for (const std::size_t axis : {std::size_t{1}, std::size_t{2}}) {
+      if (nodes_.first()[axis] == 0 || (axis == 1 ? j : k) != 1) {
+        continue;
+      }
+      const T* const before = axis == 1 ? cells_of(j - 1, k) : cells_of(j, k - 1);
+      for (std::int64_t i = 0; i < cells_.dims[0]; ++i) {
+        if (is_inside(here[i * stride]) != is_inside(before[i * stride])) {
+          visit(i + 1);
+        }
+      }
+    }
+    if (nodes_.first()[0] == 1) {
+      const std::int64_t before = field_.axes[0].resolve(field_.block.offset[0] - 1);
+      if (is_inside(*here) != is_inside(here[(before - field_.block.offset[0]) * stride])) {
+        visit(1);
+      }
+    }
+  }
+
   [[nodiscard]] const T* cells_of(std::int64_t j, std::int64_t k) const {
     return static_cast<const T*>(field_.view.data) +
            field_.element({field_.axes[0].resolve(field_.block.offset[0]),
@@ -106,13 +147,16 @@ class Flagger {
   // Which cells at open sides in x are interfacial: bit 0 the first, bit 1 the last.
   [[nodiscard]] unsigned interfacial_ends_of(std::int64_t j, std::int64_t k) const {
     const Index3& dims = cells_.dims;
-    const bool own = j <= dims[1] && k <= dims[2];
-    const unsigned ends = own ? row_ends_[static_cast<std::size_t>((k - 1) * dims[1] + j - 1)]
+    const unsigned ends = cells_.is_own_row(j, k)
+                              ? row_ends_[static_cast<std::size_t>((k - 1) * dims[1] + j - 1)]
                               : interfacial_ends(cells_of(j, k), dims[0], field_);
     return ends & ((open_[0][0] ? 1U : 0U) | (open_[0][1] ? 2U : 0U));
   }
   static void set(std::uint64_t* row, std::int64_t i) {
     row[i / 64] |= std::uint64_t{1} << (i % 64);
+  }
+  [[nodiscard]] static bool is_set(const std::uint64_t* row, std::int64_t i) {
+    return (row[i / 64] >> (i % 64) & 1) != 0;
   }
   [[nodiscard]] bool in_layer(std::size_t axis, std::int64_t local) const {
     return (open_[axis][0] && local == 1) || (open_[axis][1] && local == cells_.dims[axis]);
@@ -122,6 +166,54 @@ class Flagger {
   const Array<std::uint8_t>& row_ends_;
   BlockCells cells_;
   bool open_[3][2] = {};
+};
+
+// Fits the planes of flagged rows, and counts those of the block's own cells: planes of the next
+// blocks' first cells are counted there.
+template <class T>
+class TableFitter {
+ public:
+  TableFitter(const FitterPlan<T>& plan, const NodeBits& nodes)
+      : cells_(plan.field),
+        own_(plan, nodes),
+        next_(plan, nodes),
+        words_(static_cast<std::size_t>(nodes.words())) {}
+
+  void fit_row(std::int64_t j, std::int64_t k, const std::uint64_t* flags, UnitPlane* planes) {
+    const auto words = static_cast<std::int64_t>(words_.size());
+    if (!cells_.is_own_row(j, k)) {
+      next_.fit_row(j, k, flags, planes);
+      return;
+    }
+    for (std::int64_t w = 0; w < words; ++w) {
+      words_[static_cast<std::size_t>(w)] = flags[w] & NodeBits::range(w, 1, cells_.dims[0]);
+    }
+    own_.fit_row(j, k, words_.data(), planes);
+    const std::int64_t count = count_bits(words_.data(), words);
+    planes_ += count;
+    if (count != count_bits(flags, words)) {
+      for (std::int64_t w = 0; w < words; ++w) {
+        words_[static_cast<std::size_t>(w)] ^= flags[w];
+      }
+      next_.fit_row(j, k, words_.data(), planes + count);
+    }
+  }
+
+  struct Counts {
+    SourceCounts sources;
+    std::int64_t planes = 0;
+  };
+  [[nodiscard]] Counts finish() {
+    (void)next_.finish();
+    return {own_.finish(), planes_};
+  }
+
+ private:
+  BlockCells cells_;
+  PlaneFitter<T> own_;
+  PlaneFitter<T> next_;
+  std::vector<std::uint64_t> words_;
+  std::int64_t planes_ = 0;
 };
 
 }  // namespace
@@ -158,7 +250,6 @@ PlaneTable make_planes(const BlockField& field, const NodeBits& nodes,
   std::vector<std::uint32_t> row_counts(static_cast<std::size_t>(nodes.rows()));
   const std::int64_t grain = rows_per_portion(nodes);
   const std::int64_t row_length = nodes.last()[1] + 1;
-  std::vector<SourceCounts> portions(static_cast<std::size_t>((nodes.rows() + grain - 1) / grain));
   PlaneTable table;
   with_scalar(field.view.type, [&](auto type) {
     using T = decltype(type);
@@ -182,9 +273,11 @@ PlaneTable make_planes(const BlockField& field, const NodeBits& nodes,
       return;
     }
     const FitterPlan<T> plan(field, options.normals);
+    std::vector<typename TableFitter<T>::Counts> portions(
+        static_cast<std::size_t>((nodes.rows() + grain - 1) / grain));
     phases.run(0.5 * kPlanes.weight, nodes.rows(), grain,
                [&](std::int64_t begin, std::int64_t end) {
-                 PlaneFitter<T> fitter(plan, nodes);
+                 TableFitter<T> fitter(plan, nodes);
                  for (std::int64_t row = begin; row < end; ++row) {
                    if (!table.is_empty(row)) {
                      const std::int64_t j = row % row_length;
@@ -195,11 +288,11 @@ PlaneTable make_planes(const BlockField& field, const NodeBits& nodes,
                  }
                  portions[static_cast<std::size_t>(begin / grain)] = fitter.finish();
                });
+    for (const auto& portion : portions) {
+      portion.sources.add_to(report);
+      report.planes += portion.planes;
+    }
   });
-  report.planes += table.size();
-  for (const SourceCounts& counts : portions) {
-    counts.add_to(report);
-  }
   return table;
 }
 

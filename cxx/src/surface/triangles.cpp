@@ -410,28 +410,4 @@ void connect(const DualGrid& grid, const MeshCounts& counts, Phases& phases, Mes
   });
 }
 
-double enclosed_volume(const Mesh& mesh, double level, Phases& phases) {
-  constexpr std::int64_t kPortion = 8192;
-  const auto count = static_cast<std::int64_t>(mesh.triangles.size());
-  std::vector<double> portions(static_cast<std::size_t>((count + kPortion - 1) / kPortion));
-  phases.run(kVolume.weight, count, kPortion, [&](std::int64_t begin, std::int64_t end) {
-    double sum = 0.0;
-    for (std::int64_t n = begin; n < end; ++n) {
-      const Triangle& triangle = mesh.triangles[static_cast<std::size_t>(n)];
-      const Vec3& a = mesh.positions[triangle[0]];
-      const Vec3& b = mesh.positions[triangle[1]];
-      const Vec3& c = mesh.positions[triangle[2]];
-      // What lies below the triangle: its height times twice the area of its shadow.
-      const double shadow = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-      sum += ((a[2] - level) + (b[2] - level) + (c[2] - level)) * shadow;
-    }
-    portions[static_cast<std::size_t>(begin / kPortion)] = sum;
-  });
-  double sum = 0.0;
-  for (const double portion : portions) {
-    sum += portion;
-  }
-  return sum / 6.0;
-}
-
 }  // namespace difmesh::detail

@@ -24,8 +24,4 @@ struct MeshCounts {
 /// Fills mesh.triangles.
 void connect(const DualGrid& grid, const MeshCounts& counts, Phases& phases, Mesh& mesh);
 
-/// Volume inside a closed mesh, by the divergence theorem from a level in z near it. Summed in fixed
-/// portions.
-[[nodiscard]] double enclosed_volume(const Mesh& mesh, double level, Phases& phases);
-
 }  // namespace difmesh::detail

@@ -6,6 +6,7 @@
 
 #include "base/memory_hints.hpp"
 #include "base/stopwatch.hpp"
+#include "grid/newton_steps.hpp"
 #include "planes/plane_row.hpp"
 #include "planes/unit_plane.hpp"
 #include "surface/phase.hpp"
@@ -93,7 +94,7 @@ class RowPlacer {
         }
         DualEdge edge{node, node, axis, upper_inside};
         ++edge.upper[axis];
-        const double share = placer_.place(edge, counts_);
+        const double share = placer_.place(edge, is_of_next(node) ? counts_of_next_ : counts_);
         writer_.write(vertex, node, axis, placer_.position(edge, share));
         if (writer_.with_normals()) {
           writer_.write_normal(vertex, placer_.normal(edge, share));
@@ -143,9 +144,25 @@ class RowPlacer {
            field.element({offset[0], j - 1 + offset[1], k - 1 + offset[2]});
   }
 
-  // True for the outermost nodes: an edge across the axis there lies where the mesh ends.
+  // True for the outermost nodes of the whole grid: an edge across the axis there lies where the
+  // mesh ends.
   [[nodiscard]] bool is_end(std::size_t axis, std::int64_t local) const {
-    return local == grid_.nodes().first()[axis] || local == grid_.nodes().last()[axis];
+    const BlockField& field = grid_.field();
+    return (local == grid_.nodes().first()[axis] && field.block.offset[axis] == 0) ||
+           (local == grid_.nodes().last()[axis] &&
+            field.block.offset[axis] + field.block.dims[axis] == field.grid.dims[axis]);
+  }
+
+  // True for nodes that are cells of the blocks after this one: their edges are counted there.
+  [[nodiscard]] bool is_of_next(const Index3& node) const {
+    const BlockField& field = grid_.field();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (node[axis] > field.block.dims[axis] &&
+          field.block.offset[axis] + field.block.dims[axis] < field.grid.dims[axis]) {
+        return true;
+      }
+    }
+    return false;
   }
 
   // The edges of a word, all between cells of the block; returns the number of the vertex after theirs. `first` is the
@@ -204,6 +221,7 @@ class RowPlacer {
   const DualGrid& grid_;
   bool solves_windows_;
   EdgeCounts counts_;
+  EdgeCounts counts_of_next_;
   VertexWriter writer_;
   WindowQueue queue_;
   std::array<PlaneRow, 3>* planes_ = nullptr;
@@ -380,7 +398,7 @@ void place_vertices(const DualGrid& grid, const Options& options,
   });
   double all_seconds = 0.0;
   double plane_seconds = 0.0;
-  std::int64_t steps = 0;
+  std::int64_t steps = newton_steps(report);
   for (const Placed& portion : portions) {
     const EdgeCounts& counts = portion.edges;
     report.solved_edges += counts.solved;
@@ -393,10 +411,7 @@ void place_vertices(const DualGrid& grid, const Options& options,
     plane_seconds += portion.plane_seconds;
     all_seconds += portion.seconds;
   }
-  if (report.solved_edges > 0) {
-    report.newton_steps_mean =
-        static_cast<double>(steps) / static_cast<double>(report.solved_edges);
-  }
+  set_newton_steps(steps, report);
   // Planes and vertices take turns in each thread: the wall time is shared out as theirs is.
   const double seconds = watch.lap();
   const double for_planes = all_seconds > 0.0 ? seconds * plane_seconds / all_seconds : 0.0;

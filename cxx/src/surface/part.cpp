@@ -1,0 +1,97 @@
+#include "surface/part.hpp"
+
+#include <limits>
+#include <new>
+#include <string>
+#include <utility>
+
+#include "base/parallel.hpp"
+#include "base/stopwatch.hpp"
+#include "cells/classify.hpp"
+#include "cells/memory_plan.hpp"
+#include "difmesh/error.hpp"
+#include "difmesh/out_of_memory.hpp"
+#include "placement/placement.hpp"
+#include "surface/dual_grid.hpp"
+#include "surface/phase.hpp"
+#include "surface/plane_table.hpp"
+#include "surface/triangles.hpp"
+#include "surface/vertices.hpp"
+
+namespace difmesh::detail {
+namespace {
+
+// \param now what is about to be made
+void run_phases(const BlockField& field, const Options& options, const char*& now, PartSums& sums,
+                Mesh& mesh) {
+  Report& report = sums.report;
+  Stopwatch whole;
+  Stopwatch watch;
+  Workers workers(options.threads);
+  Phases phases(workers, options.progress);
+
+  const bool with_planes = placement_part(options.placement).by_planes;
+  LayerPlanes layer_planes(field, with_planes);
+  now = kInsideBits.makes;
+  ClassifiedNodes classified =
+      classify(field, {options.overshoot_bound, layer_planes}, kInsideBits.weight, phases, report);
+  DualGrid grid(field, std::move(classified.nodes));
+  report.seconds.classify += watch.lap();
+
+  now = kPlanes.makes;
+  if (with_planes || options.vertex_normals) {
+    grid.set_planes(make_planes(field, grid.nodes(), classified.row_ends, options, phases, report),
+                    with_planes);
+  }
+  report.seconds.normals += watch.lap();
+
+  now = kCounts.makes;
+  const MeshCounts counts = count_mesh(grid, phases);
+  const std::int64_t vertices = counts.vertex_start.back();
+  if (vertices > std::numeric_limits<std::uint32_t>::max()) {
+    throw Error(ErrorCode::too_large, "the mesh would have " + std::to_string(vertices) +
+                                          " vertices, more than 2^32 - 1; reconstruct blocks");
+  }
+  report.seconds.count += watch.lap();
+
+  now = kVertices.makes;
+  place_vertices(grid, options, counts.vertex_start, phases, mesh, report);
+  watch.lap();  // of planes and of vertices, which take turns: they are in the report
+
+  now = kTriangles.makes;
+  connect(grid, counts, phases, mesh);
+  now = kVolume.makes;
+  if (report.closed) {
+    sums.volume.add(mesh, phases);
+  }
+  report.seconds.triangles += watch.lap();
+  report.seconds.total += whole.lap();
+  phases.finish();
+}
+
+}  // namespace
+
+// Half-way up the grid.
+PartSums::PartSums(const Grid& grid)
+    : volume(grid.origin[2] + grid.spacing[2] * (0.5 * static_cast<double>(grid.dims[2]))) {}
+
+Report PartSums::finish() {
+  report.enclosed_volume = report.closed ? volume.value() : 0.0;
+  return std::move(report);
+}
+
+Mesh reconstruct_part(const BlockField& field, const Options& options, PartSums& sums) {
+  check_memory(field);
+  const char* now = "the work";
+  Mesh mesh;
+  try {
+    run_phases(field, options, now, sums, mesh);
+  } catch (const OutOfMemory&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    fail_memory(field, now);
+  }
+  return mesh;
+}
+
+}  // namespace difmesh::detail
