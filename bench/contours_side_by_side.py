@@ -1,11 +1,12 @@
-"""Ours beside scikit-image's marching cubes and OpenVDB's contours, from Python, on the same fields.
+"""Ours beside scikit-image's marching cubes and OpenVDB's contours, from Python, on the same
+fields.
 
     scripts/bench.sh --others
 
-float32, a sphere of radius 0.35 N in N^3 cells and eight periods of a gyroid, one thread of ours; the
-others do not say how many they use. Medians of ROUNDS (5) runs in turn. What each returns differs:
-scikit-image adds normals that cannot be had without, OpenVDB gives quadrilaterals from a grid of its own,
-whose filling is not timed.
+float32, a sphere of radius 0.35 N in N^3 cells and eight periods of a gyroid, one thread of ours;
+the others do not say how many they use. Medians of ROUNDS (5) runs in turn. What each returns
+differs: scikit-image adds normals that cannot be had without, OpenVDB gives quadrilaterals from a
+grid of its own, whose filling is not timed.
 """
 
 import statistics
@@ -59,7 +60,8 @@ def compare(name: str, field: np.ndarray, rounds: int) -> None:
 
 def main() -> None:
     rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 5
-    print(f"scikit-image {skimage.__version__}, OpenVDB {'.'.join(map(str, openvdb.LIBRARY_VERSION))}\n")
+    vdb_version = ".".join(map(str, openvdb.LIBRARY_VERSION))
+    print(f"scikit-image {skimage.__version__}, OpenVDB {vdb_version}\n")
     print("| field | difmesh linear ms | difmesh plic ms | scikit-image ms | OpenVDB ms |")
     print("|---|---|---|---|---|")
     for cells in (64, 128, 256):

@@ -1,5 +1,6 @@
 #pragma once
-// Fields to measure on: a sphere of radius 0.35 N, off the grid's centre, and eight periods of a gyroid.
+// Fields to measure on: a sphere of radius 0.35 N, off the grid's centre, and eight periods of a
+// gyroid.
 
 #include <algorithm>
 #include <cmath>

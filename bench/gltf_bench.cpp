@@ -1,6 +1,6 @@
-// Writing 1.2 million triangles: Draco's encoder called directly on its own mesh, and our files of the same
-// surface, which check, round, describe and compress it. One thread each. Then sizes and errors of
-// Draco by bits and method, once each.
+// Writing 1.2 million triangles: Draco's encoder called directly on its own mesh, and our files of
+// the same surface, which check, round, describe and compress it. One thread each. Then sizes and
+// errors of Draco by bits and method, once each.
 //   gltf_bench --benchmark_enable_random_interleaving --benchmark_repetitions=9
 
 #include <benchmark/benchmark.h>

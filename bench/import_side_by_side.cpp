@@ -1,7 +1,7 @@
-// A surface of 1.2 million triangles into OpenMesh and CGAL: by the adapters, and by the libraries' own
-// builders with memory reserved, in turn in the same process, so that a machine that changes its speed
-// changes both. Prints medians, the median of the ratios of neighbouring runs, and memory on the heap: of
-// the finished mesh, and at the worst while it is built.
+// A surface of 1.2 million triangles into OpenMesh and CGAL: by the adapters, and by the libraries'
+// own builders with memory reserved, in turn in the same process, so that a machine that changes
+// its speed changes both. Prints medians, the median of the ratios of neighbouring runs, and memory
+// on the heap: of the finished mesh, and at the worst while it is built.
 //   import_side_by_side [rounds]
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

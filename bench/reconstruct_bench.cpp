@@ -1,5 +1,5 @@
-// Time of the whole and of each phase on a sphere of radius 0.35 N, one thread. The phases are timed by
-// the library's own report, in the same runs as the whole.
+// Time of the whole and of each phase on a sphere of radius 0.35 N, one thread. The phases are
+// timed by the library's own report, in the same runs as the whole.
 
 #include <benchmark/benchmark.h>
 

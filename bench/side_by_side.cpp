@@ -1,7 +1,7 @@
-// Ours and VTK's vtkFlyingEdges3D on the same field in the same process, in turn, so that a machine that changes its
-// speed changes both. Prints medians, the median of the ratios of neighbouring runs, and how far each raises the
-// process's memory; then how the time grows with the grid. scripts/bench.sh runs it.
-//   side_by_side [rounds] [most threads]
+// Ours and VTK's vtkFlyingEdges3D on the same field in the same process, in turn, so that a machine
+// that changes its speed changes both. Prints medians, the median of the ratios of neighbouring
+// runs, and how far each raises the process's memory; then how the time grows with the grid.
+//   scripts/bench.sh runs it. side_by_side [rounds] [most threads]
 
 #include <malloc.h>
 
@@ -143,7 +143,8 @@ void print_growth(const std::vector<std::int64_t>& sizes, const std::vector<Time
               1e9 * (s22 * t3 - s32 * t2) / determinant, 1e9 * (s33 * t2 - s32 * t3) / determinant);
 }
 
-// Nanoseconds to read one float of a field in memory, where the compiler may use the machine's baseline only.
+// Nanoseconds to read one float of a field in memory, where the compiler may use the machine's
+// baseline only.
 double read_nanoseconds(std::int64_t n) {
   const std::vector<float> field(static_cast<std::size_t>(n * n * n), 1.0F);
   std::vector<double> times;

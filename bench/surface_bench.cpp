@@ -1,5 +1,5 @@
-// Curvature, smoothing, mollification and the normals that are fitted, on a sphere of radius 0.35 N, one
-// thread: processor time per vertex or cell.
+// Curvature, smoothing, mollification and the normals that are fitted, on a sphere of radius 0.35
+// N, one thread: processor time per vertex or cell.
 
 #include <benchmark/benchmark.h>
 

@@ -40,15 +40,15 @@ struct LoadedField {
   Source spacing_from = Source::file;
 };
 
-/// Adds --origin, --spacing, what tells values, --raw-* and --allow-outside. `input` must outlive the
-/// parsing.
+/// Adds --origin, --spacing, what tells values, --raw-* and --allow-outside. `input` must outlive
+/// the parsing.
 void add_field_options(CLI::App& command, FieldInput& input);
 
 /// \throw Error as read_field()
 [[nodiscard]] LoadedField load_field(const FieldInput& input);
 
-/// Says that integers look like a mask or a segmentation (doubt_of_scale()); empty if they do not, or
-/// the reader has said it.
+/// Says that integers look like a mask or a segmentation (doubt_of_scale()); empty if they do not,
+/// or the reader has said it.
 [[nodiscard]] std::string scale_warning(const FieldInput& input, const FieldFile& file);
 
 /// "command line", "file" or "assumed".

@@ -27,8 +27,8 @@ namespace difmesh::cli {
 inline constexpr const char* kAllowOutsideHelp =
     "Let files name data outside their own folder: .nhdr and .gltf";
 
-/// Adds --threads N to a command, whose `result` the help says does not depend on it. `threads` must live as
-/// long as the command; 0 stands for as many as the machine has.
+/// Adds --threads N to a command, whose `result` the help says does not depend on it. `threads`
+/// must live as long as the command; 0 stands for as many as the machine has.
 void add_threads_option(CLI::App& command, const std::string& result, int& threads);
 
 /// Three numbers with commas between, or one that stands for all three.

@@ -202,8 +202,8 @@ void print_summary(const Request& request, const LoadedField& field, const Recon
                  ", write " + rounded(seconds.write, 3) + ")");
 }
 
-/// Of the field or, where asked for, of the field made smooth, of whose values the first that is out
-/// of bounds is to be named and not what smoothing made of it.
+/// Of the field or, where asked for, of the field made smooth, of whose values the first that is
+/// out of bounds is to be named and not what smoothing made of it.
 Reconstruction reconstruct_field(const Request& request, const LoadedField& field,
                                  const Options& options, LongCall& long_call) {
   const FieldView view = field.file.view();

@@ -31,8 +31,8 @@ void check_reference(const ReferenceInput& input);
 [[nodiscard]] Mesh read_triangles(const std::string& path, bool allow_outside,
                                   std::vector<std::string>& warnings);
 
-/// Scalars `error`: distances of the vertices from the reference, negative inside where that is known.
-/// Appends what the reader of a reference mesh warns of.
+/// Scalars `error`: distances of the vertices from the reference, negative inside where that is
+/// known. Appends what the reader of a reference mesh warns of.
 /// \pre input.is_given()
 /// \throw Error; for a reference mesh in a build without difmesh::metrics too
 [[nodiscard]] VertexScalar errors_of(const Mesh& mesh, const ReferenceInput& input, bool quiet,

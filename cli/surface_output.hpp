@@ -43,8 +43,8 @@ MeshFileReport write_surface(const SurfaceOutput& output, Mesh& mesh, double cel
 
 /// Size and error of a file in words.
 [[nodiscard]] std::string file_text(const MeshFileReport& report);
-/// A sentence where the format made triangles collapse or rounds coordinates by more than a hundredth
-/// of the spacing, unless it was told by how much to.
+/// A sentence where the format made triangles collapse or rounds coordinates by more than a
+/// hundredth of the spacing, unless it was told by how much to.
 [[nodiscard]] std::optional<std::string> rounding_warning(const SurfaceOutput& output,
                                                           const MeshFileReport& report,
                                                           double cell_size);

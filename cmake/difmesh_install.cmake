@@ -3,8 +3,8 @@
 include(CMakePackageConfigHelpers)
 set(difmesh_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/difmesh)
 
-# Of each part: the parts that it builds on, and what users of a static library have to find again, as
-# arguments of find_package().
+# Of each part: the parts that it builds on, and what users of a static library have to find again,
+# as arguments of find_package().
 set(difmesh_core_parts "")
 set(difmesh_io_parts core)
 set(difmesh_adapters_parts "")

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Attacks the C interface with ugly fields, each made from a number, on all cores: what must hold of every surface is in
-# tests/capi/attack. Of every hundredth field CGAL looks at the surface too. Ends with 1 if anything is wrong.
+# Attacks the C interface with ugly fields, each made from a number, on all cores: what must hold of
+# every surface is in tests/capi/attack. Of every hundredth field CGAL looks at the surface too.
+# Ends with 1 if anything is wrong.
 #   attack.sh                    two million fields, some 20 minutes on two cores
 #   attack.sh --fields N         so many, from field 1 on
 #   attack.sh --first M          from field M on

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Do includes run downward only? Checks every include of the library against the rooms below.
 
-A room may include itself and the rooms that it names, and through them nothing else. A public header of
-the core belongs to the room of its name in PUBLIC. Exits with 1 and a line per include that runs upward,
-per file outside the rooms, and per room that is named but not there.
+A room may include itself and the rooms that it names, and through them nothing else. A public
+header of the core belongs to the room of its name in PUBLIC. Exits with 1 and a line per include
+that runs upward, per file outside the rooms, and per room that is named but not there.
 
     scripts/check_rooms.py [ROOT]
 """
@@ -28,15 +28,16 @@ ROOMS = {
 
 # Headers of cxx/include/difmesh by the room that implements them.
 PUBLIC = {
-    "base": ["array", "error", "float_environment", "out_of_memory", "printable", "progress", "vec3",
-             "version"],
+    "base": ["array", "error", "float_environment", "out_of_memory", "printable", "progress",
+             "vec3", "version"],
     "grid": ["block", "edge_id", "field_view", "grid", "options", "report", "values"],
     "planes": ["plane"],
     "cells": ["cell_planes"],
     "mesh": ["curvature", "measure", "mesh", "mesh_portion", "smoothing",
              "vertex_normals"],
     "surface": ["reconstruct", "surface_builder", "weld"],
-    "sampling": ["constrained_smoothing", "fractions_from_function", "fractions_from_mesh", "mollify"],
+    "sampling": ["constrained_smoothing", "fractions_from_function", "fractions_from_mesh",
+                 "mollify"],
     "shapes": ["shapes"],
 }
 
@@ -108,7 +109,8 @@ class Checker:
         owner: dict[str, str] = {}
         for house in HOUSES:
             for path in sources(self.root / house / "include"):
-                owner[str(path.relative_to(self.root / house / "include")).removesuffix(".in")] = house
+                name = str(path.relative_to(self.root / house / "include")).removesuffix(".in")
+                owner[name] = house
         for house, allowed in HOUSES.items():
             for path in sources(self.root / house):
                 for included in INCLUDE.findall(path.read_text()):

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Shows what difmesh does, on a fresh Debian 12 machine too: installs what is missing, builds the program,
-# reconstructs two merged drops from a flow solver in two ways, and compares the surfaces. Run it as often as
-# you like and from anywhere; it writes to build/demo and demo-out in the project's folder.
+# Shows what difmesh does, on a fresh Debian 12 machine too: installs what is missing, builds the
+# program, reconstructs two merged drops from a flow solver in two ways, and compares the surfaces.
+# Run it as often as you like and from anywhere; it writes to build/demo and demo-out in the
+# project's folder.
 set -euo pipefail
 export LC_ALL=C
 cd "$(dirname "$(realpath "$0")")/.."
@@ -76,8 +77,8 @@ for phase in read classify normals count vertices triangles; do
 done
 cat <<END
 
-  Both meshes have the same triangles; what differs is where their vertices are put. Roughness is the rms
-  angle between neighbouring facets.
+  Both meshes have the same triangles; what differs is where their vertices are put. Roughness is the
+  rms angle between neighbouring facets.
 
 Sizes in bytes:
 END

@@ -3,8 +3,9 @@
 # UndefinedBehaviorSanitizer, with clang's libFuzzer.
 #   fuzz.sh                     every target for 60 seconds
 #   fuzz.sh SECONDS [TARGET...] these targets for so long each: capi, npy, nrrd, ...
-# Inputs that do harm are written to build/fuzz/found, and belong into tests/fuzz/corpus/TARGET once the defect
-# is mended; all inputs that reach new code are kept in build/fuzz/work/TARGET for the next search.
+# Inputs that do harm are written to build/fuzz/found, and belong into tests/fuzz/corpus/TARGET once
+# the defect is mended; all inputs that reach new code are kept in build/fuzz/work/TARGET for the
+# next search.
 set -euo pipefail
 export LC_ALL=C
 cd "$(dirname "$(realpath "$0")")/.."
@@ -32,8 +33,8 @@ for target in "${targets[@]}"; do
   settings=(-max_len=4096 -reload=0)
   [ "$target" != capi ] || settings=(-max_len=256 -reload=0 -entropic=0)
   echo "== $target for $seconds s"
-  if ! "build/fuzz/tests/fuzz/${target}_fuzz" -max_total_time="$seconds" "${settings[@]}" -timeout=20 \
-    -rss_limit_mb=4096 -print_final_stats=1 -artifact_prefix="build/fuzz/found/$target-" \
+  if ! "build/fuzz/tests/fuzz/${target}_fuzz" -max_total_time="$seconds" "${settings[@]}" \
+    -timeout=20 -rss_limit_mb=4096 -print_final_stats=1 -artifact_prefix="build/fuzz/found/$target-" \
     "build/fuzz/work/$target" "tests/fuzz/corpus/$target" >"build/fuzz/$target.log" 2>&1; then
     failed+=("$target")
     tail -n 30 "build/fuzz/$target.log" >&2

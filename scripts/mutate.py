@@ -1,17 +1,18 @@
 #!/usr/bin/env python3
-"""Do the tests bite? Changes one comparison, sign, index or constant of the core at a time and runs core_test.
+"""Do the tests bite? Changes one comparison, sign, index or constant of the core at a time and runs
+core_test.
 
-A mutant that core_test fails on, or never ends on, is killed. One that passes survives: it wants a test, or a line in
-tests/mutation/harmless.txt that says why it changes nothing that is promised. What does not compile, or does so with
-the warnings of CI, does not count.
+A mutant that core_test fails on, or never ends on, is killed. One that passes survives: it wants a
+test, or a line in tests/mutation/harmless.txt that says why it changes nothing that is promised.
+What does not compile, or does so with the warnings of CI, does not count.
 
     scripts/mutate.py                      150 mutants, drawn at random from the files below
     scripts/mutate.py --seed 7 --mutants 20 --only 'plane_*'
     scripts/mutate.py --list               all places and what would be written there
     scripts/mutate.py --replay build/mutation/survivors.txt   those once more
 
-Works on a copy of the tree in build/mutation, so nothing of the checkout changes. Needs what test.sh installs. Takes
-some minutes to build and about half a minute per mutant.
+Works on a copy of the tree in build/mutation, so nothing of the checkout changes. Needs what
+test.sh installs. Takes some minutes to build and about half a minute per mutant.
 """
 
 import argparse
@@ -35,20 +36,24 @@ HARMLESS = ROOT / "tests" / "mutation" / "harmless.txt"
 PLACES = ["planes/*", "cells/*", "placement/*", "surface/*", "sampling/*", "mesh/quadric_patch.cpp"]
 
 # Lines whose numbers promise nothing: shares of progress, room set aside, messages.
-EXEMPT = re.compile(r"phases\.run\(|progress|reserve\(|prefetch|throw |Error\(|stopwatch|kGrain|grain")
+EXEMPT = re.compile(r"phases\.run\(|progress|reserve\(|prefetch|throw |Error\(|stopwatch"
+                    r"|kGrain|grain")
 
 # Test cases that take long run last: most mutants die before.
-SLOW = ["instruction sets*", "every cell of a sphere*", "oracle: vertices of the genus*", "oracle: vertices of noise*",
-        "the shared meshes*", "volumes against totals*", "spheres of random size*", "distances against a dense*",
+SLOW = ["instruction sets*", "every cell of a sphere*", "oracle: vertices of the genus*",
+        "oracle: vertices of noise*", "the shared meshes*", "volumes against totals*",
+        "spheres of random size*", "distances against a dense*",
         "overlaps of parts*", "a ball cut by a plane*"]
 
-COMPARISONS = {"<": ["<=", ">"], "<=": ["<", ">="], ">": [">=", "<"], ">=": [">", "<="], "==": ["!="], "!=": ["=="]}
+COMPARISONS = {"<": ["<=", ">"], "<=": ["<", ">="], ">": [">=", "<"], ">=": [">", "<="],
+               "==": ["!="], "!=": ["=="]}
 SITES = [
     ("comparison", re.compile(r"(?<= )(<=|>=|==|!=|<|>)(?= )")),
     ("sign", re.compile(r"(?<= )([+-]=?)(?= )|(?<=[(,={\[] )(-)(?=[\w(])|(?<=[({\[])(-)(?=[\w(])|"
                         r"(?<=return )(-)(?=[\w(])")),
     ("index", re.compile(r"(?<=\[)(\d)(?=\])")),
-    ("constant", re.compile(r"(?<![\w.\['])(\d+\.\d*(?:e[+-]?\d+)?|\d+e[+-]?\d+|\d+)(?![\w.\]'>])")),
+    ("constant", re.compile(r"(?<![\w.\['])(\d+\.\d*(?:e[+-]?\d+)?|\d+e[+-]?\d+|\d+)"
+                            r"(?![\w.\]'>])")),
 ]
 
 
@@ -101,14 +106,16 @@ def mutants_of(path: pathlib.Path) -> list[Mutant]:
     source = path.read_text()
     found = []
     for number, (code, text) in enumerate(zip(code_only(source), source.split("\n")), 1):
-        if re.match(r"\s*(#|static_assert|using |template|namespace )", code) or EXEMPT.search(text):
+        is_declaration = re.match(r"\s*(#|static_assert|using |template|namespace )", code)
+        if is_declaration or EXEMPT.search(text):
             continue
         for kind, pattern in SITES:
             for match in pattern.finditer(code):
                 group = next(k for k in range(1, pattern.groups + 1) if match.group(k))
                 old, column = match.group(group), match.start(group)
                 for new in alternatives(kind, old):
-                    found.append(Mutant(str(path.relative_to(ROOT)), number, column, kind, old, new, text))
+                    found.append(Mutant(str(path.relative_to(ROOT)), number, column, kind, old, new,
+                                        text))
     return found
 
 
@@ -117,7 +124,8 @@ def all_mutants(only: str) -> list[Mutant]:
     core = ROOT / "cxx" / "src"
     for path in sorted(core.rglob("*.[ch]pp")):
         place = str(path.relative_to(core))
-        if any(fnmatch.fnmatch(place, pattern) for pattern in PLACES) and fnmatch.fnmatch(path.stem, only):
+        in_places = any(fnmatch.fnmatch(place, pattern) for pattern in PLACES)
+        if in_places and fnmatch.fnmatch(path.stem, only):
             found += mutants_of(path)
     return found
 
@@ -153,8 +161,8 @@ def run(command: list[str], limit: float | None = None) -> bool:
 
 def copy_tree() -> None:
     """Copies what has changed, and nothing else, for the sake of incremental builds."""
-    listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=ROOT, check=True, capture_output=True,
-                            text=True).stdout
+    listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=ROOT, check=True,
+                            capture_output=True, text=True).stdout
     for name in listed.splitlines():
         source, target = ROOT / name, TREE / name
         if not source.is_file():
@@ -165,8 +173,8 @@ def copy_tree() -> None:
 
 
 class Judge:
-    """Builds core_test and runs it. Most mutants show with the baseline's kernels alone, which compile in a third of
-    the time; only those that survive there are held against all kernels."""
+    """Builds core_test and runs it. Most mutants show with the baseline's kernels alone, which
+    compile in a third of the time; only those that survive there are held against all kernels."""
 
     def __init__(self, kernels: str) -> None:
         self.build_folder = WORK / f"build-{kernels}"
@@ -201,7 +209,8 @@ def harmless() -> dict[str, str]:
     """The changes known to promise nothing, and why: file | line | changed line | reason."""
     if not HARMLESS.exists():
         return {}
-    rows = [line.rsplit(" | ", 1) for line in HARMLESS.read_text().splitlines() if line and not line.startswith("#")]
+    rows = [line.rsplit(" | ", 1) for line in HARMLESS.read_text().splitlines()
+            if line and not line.startswith("#")]
     return {row[0]: row[1] for row in rows}
 
 
@@ -226,21 +235,24 @@ def judge_all(chosen: list[Mutant], kernels: str, count: int) -> tuple[int, list
         counted += verdict != "does not compile"
         if verdict == "SURVIVES":
             survivors.append(mutant)
-        print(f"{counted:4} {verdict}: line {mutant.line}, {mutant.kind} {mutant.old} -> {mutant.new}: "
-              f"{mutant.key()}", flush=True)
+        print(f"{counted:4} {verdict}: line {mutant.line}, {mutant.kind} {mutant.old} -> "
+              f"{mutant.new}: {mutant.key()}", flush=True)
         lines[mutant.line - 1] = mutant.text
         path.write_text("\n".join(lines))
     return counted, survivors
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--mutants", type=int, default=150)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", default="*", help="pattern of the files' stems")
     parser.add_argument("--list", action="store_true")
-    parser.add_argument("--replay", help="a file with the changes to make, as survivors.txt has them")
-    parser.add_argument("--most", type=float, default=15.0, help="per cent that may survive without a reason")
+    parser.add_argument("--replay",
+                        help="a file with the changes to make, as survivors.txt has them")
+    parser.add_argument("--most", type=float, default=15.0,
+                        help="per cent that may survive without a reason")
     arguments = parser.parse_args()
     found = all_mutants(arguments.only)
     if arguments.list:
@@ -251,21 +263,24 @@ def main() -> None:
         count = len(chosen)
     else:
         count = arguments.mutants
-        # Some do not compile; mutants of one file follow each other, so that restoring one and making the next
-        # costs one compilation.
+        # Some do not compile; mutants of one file follow each other, so that restoring one and
+        # making the next costs one compilation.
         chosen = draw(found, count + count // 4, arguments.seed)
         random.Random(arguments.seed).shuffle(chosen)
         chosen = sorted(chosen[:count], key=lambda m: (m.file, m.line)) + chosen[count:]
     copy_tree()
     counted, survivors = judge_all(chosen, "baseline", count)
     if survivors:
-        print("mutate: the survivors once more, with the kernels of all instruction sets", flush=True)
+        print("mutate: the survivors once more, with the kernels of all instruction sets",
+              flush=True)
         survivors = judge_all(survivors, "all", len(survivors))[1]
     known = harmless()
     unexplained = [mutant for mutant in survivors if mutant.key() not in known]
     (WORK / "survivors.txt").write_text("".join(mutant.key() + "\n" for mutant in unexplained))
-    print(f"mutate: {counted} mutants, {len(survivors)} survive, {len(survivors) - len(unexplained)} of them harmless by "
-          f"{HARMLESS.relative_to(ROOT)}; the others stand in {(WORK / 'survivors.txt').relative_to(ROOT)}")
+    explained = len(survivors) - len(unexplained)
+    print(f"mutate: {counted} mutants, {len(survivors)} survive, {explained} of them harmless by "
+          f"{HARMLESS.relative_to(ROOT)}; the others stand in "
+          f"{(WORK / 'survivors.txt').relative_to(ROOT)}")
     if counted and 100.0 * len(unexplained) / counted > arguments.most:
         sys.exit(1)
 

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Measures what the paper measures (Evrard, Denner, van Wachem, IEEE TVCG 2019): sets up a Debian 12 machine,
-# builds, runs all its bodies with all ways to a surface, and draws the figures.
+# Measures what the paper measures (Evrard, Denner, van Wachem, IEEE TVCG 2019): sets up a Debian 12
+# machine, builds, runs all its bodies with all ways to a surface, and draws the figures.
 #   paper.sh                all of it: a quarter of an hour or less on two cores
 #   paper.sh --short        fewer cells, places and ways: a minute
-#   paper.sh --out DIR      where to: tables (.csv, .md), plots (.svg) and pictures (.jpg); default paper-out
-#   paper.sh --mesh FILE    a closed mesh instead of the bunny of ../shared/data; without either it is left out
-#   paper.sh --docs         puts tables, plots and pictures into docs/paper.md and docs/paper, too
-# Exit code 1: what is claimed does not hold.
+#   paper.sh --out DIR      where to: tables (.csv, .md), plots (.svg) and pictures (.jpg); default
+#   paper-out paper.sh --mesh FILE    a closed mesh instead of the bunny of ../shared/data; without
+#   either it is left out paper.sh --docs         puts tables, plots and pictures into docs/paper.md
+# and docs/paper, too Exit code 1: what is claimed does not hold.
 set -euo pipefail
 export LC_ALL=C.UTF-8
 home=$(dirname "$(realpath "$0")")/..
@@ -61,7 +61,8 @@ fi
 gnuplot -c bench/paper/plots.gp "$out"
 sed -z -E -i 's/<g [^>]*>\n<\/g>\n//g' "$out"/*.svg # empty groups, a quarter of what gnuplot writes
 if [ -d build/paper/npm/node_modules ] && command -v chromium >/dev/null; then
-  node bench/paper/pictures.mjs build/paper/npm build/paper/cli/difmesh "$(command -v chromium)" "$out"
+  node bench/paper/pictures.mjs build/paper/npm build/paper/cli/difmesh "$(command -v chromium)" \
+    "$out"
 else
   echo "paper: left out: the pictures, as there is no chromium or npm could not get its packages"
 fi

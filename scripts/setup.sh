@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Installs what difmesh needs on Debian 12: compilers, libraries, tools. Run by demo.sh and test.sh; does
-# nothing where all is there. Needs root or sudo.
+# Installs what difmesh needs on Debian 12: compilers, libraries, tools. Run by demo.sh and test.sh;
+# does nothing where all is there. Needs root or sudo.
 #   setup.sh            build, tests and demo
 #   setup.sh --browser  Chromium as well, in which tests open our pages
 #   setup.sh --bench    the benchmarks as well (Google Benchmark, VTK)
 #   setup.sh --bench-others  what is timed beside ours from Python (scikit-image, OpenVDB)
-#   setup.sh --paper    what draws figures as well (gnuplot, Chromium), and VTK, which is measured beside ours
-#   setup.sh --fuzz     the search for bad inputs as well (clang's libFuzzer)
+#   setup.sh --paper    what draws figures as well (gnuplot, Chromium), and VTK, which is measured
+#   beside ours setup.sh --fuzz     the search for bad inputs as well (clang's libFuzzer)
 #   setup.sh --tsan     what oneTBB is built with for ThreadSanitizer as well
 set -euo pipefail
 

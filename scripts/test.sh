@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Sets up, builds and tests everything: formatting, the release preset, the same tests under AddressSanitizer
-# and UndefinedBehaviorSanitizer, and the core without oneTBB.
+# Sets up, builds and tests everything: formatting, the release preset, the same tests under
+# AddressSanitizer and UndefinedBehaviorSanitizer, and the core without oneTBB.
 #   test.sh             all of it
 #   test.sh release     only these presets
 set -euo pipefail
@@ -12,6 +12,7 @@ if [ ${#presets[@]} -eq 0 ]; then
   presets=(release serial asan)
   echo "== formatting"
   git ls-files '*.cpp' '*.hpp' '*.h' | xargs -r clang-format --dry-run --Werror
+  scripts/check_columns.py
 fi
 
 for preset in "${presets[@]}"; do

@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
-# Runs the tests of concurrency under ThreadSanitizer. Debian's oneTBB is built without it, which gives over a
-# hundred false reports, so oneTBB is built here from Debian's source. Needs `deb-src` to be reachable where
-# `deb` is; takes some minutes. Not part of test.sh.
+# Runs the tests of concurrency under ThreadSanitizer. Debian's oneTBB is built without it, which
+# gives over a hundred false reports, so oneTBB is built here from Debian's source. Needs `deb-src`
+# to be reachable where `deb` is; takes some minutes. Not part of test.sh.
 #   tsan.sh [FILTER]    FILTER as for ctest -R; default: the tests that use threads
 set -euo pipefail
 export LC_ALL=C
 cd "$(dirname "$(realpath "$0")")/.."
 
-filter=${1:-'capi_test: ?(a reconstruction has|reconstructions on eight|planes of|fractions from)|thread'}
+cases='a reconstruction has|reconstructions on eight|planes of|fractions from'
+filter=${1:-"capi_test: ?($cases)|thread"}
 scripts/setup.sh --tsan
 root=$PWD/build/tsan-tbb
 if [ ! -e "$root/install/lib/cmake/TBB/TBBConfig.cmake" ]; then
@@ -16,7 +17,8 @@ if [ ! -e "$root/install/lib/cmake/TBB/TBBConfig.cmake" ]; then
   mkdir -p "$root"/{parts,lists/partial,source}
   # The configured sources, as deb-src, with lists of their own: nothing of the system is changed.
   for file in /etc/apt/sources.list /etc/apt/sources.list.d/*; do
-    [ -f "$file" ] && sed -E 's/^Types:.*/Types: deb-src/; s/^deb /deb-src /' "$file" >"$root/parts/$(basename "$file")"
+    [ -f "$file" ] && sed -E 's/^Types:.*/Types: deb-src/; s/^deb /deb-src /' "$file" \
+      >"$root/parts/$(basename "$file")"
   done
   [ -e "$root/parts/sources.list" ] && mv "$root/parts/sources.list" "$root/parts/main.list"
   apt=(apt-get -qq -o "Dir::Etc::SourceList=/dev/null" -o "Dir::Etc::SourceParts=$root/parts"

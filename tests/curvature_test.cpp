@@ -122,7 +122,8 @@ TEST_CASE("curvature: paraboloids are exact at their apex however they are turne
 }
 
 TEST_CASE("curvature: rows of vertices that stand far apart do as well as a square lattice") {
-  // Vertices lie `stretch` times closer along one direction than across it, whatever the frame of the fit.
+  // Vertices lie `stretch` times closer along one direction than across it, whatever the frame of
+  // the fit.
   for (const double stretch : {3.0, 20.0, 60.0}) {
     for (int turn = 0; turn < 8; ++turn) {
       const double angle = 0.2 + 0.25 * std::numbers::pi * turn;

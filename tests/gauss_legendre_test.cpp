@@ -83,8 +83,8 @@ TEST_CASE("gauss rules find coefficients and the values near the ends") {
 TEST_CASE("gauss rules find the kink of two parabolas that meet between nodes") {
   for (int n = 6; n <= kMaxGaussNodes; ++n) {
     const GaussRule& rule = gauss_rule(n);
-    // Between nodes that have two more on either side, which determine the parabolas; nearer to the upper one, for the
-    // gap below the sharpest node is tried first.
+    // Between nodes that have two more on either side, which determine the parabolas; nearer to the
+    // upper one, for the gap below the sharpest node is tried first.
     for (int gap = 2; gap + 3 < n; ++gap) {
       for (const double share : {0.55, 0.63, 0.93}) {
         const auto at = static_cast<std::size_t>(gap);

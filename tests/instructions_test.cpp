@@ -179,7 +179,8 @@ TEST_CASE("instruction sets: the same bits for integers, and for all kinds of no
   }
 }
 
-// Cells whose neighbours along x do not lie next to each other in memory are taken one by one, by the general code.
+// Cells whose neighbours along x do not lie next to each other in memory are taken one by one, by
+// the general code.
 TEST_CASE("kernels: the same bits as cell by cell") {
   for (const Case& each : cases()) {
     CAPTURE(each.name);

@@ -61,8 +61,8 @@ OwnedField half_space(const Grid& grid, const Vec3& normal, double level) {
   return field;
 }
 
-/// Sum of squares by which the plane of that normal misses the 27 fractions about a cell, the cell's own exactly
-/// kept, in a grid of unit cubes.
+/// Sum of squares by which the plane of that normal misses the 27 fractions about a cell, the
+/// cell's own exactly kept, in a grid of unit cubes.
 double misfit(OwnedField& field, const Index3& cell, const Vec3& normal) {
   const Vec3 spacing{1.0, 1.0, 1.0};
   const double offset = difmesh::plane_offset(normal, spacing, field.at(cell[0], cell[1], cell[2]));

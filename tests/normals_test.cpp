@@ -40,8 +40,8 @@ std::vector<CellPlane> planes_of(const FieldView& field, const difmesh::Array<In
 }
 
 /// MYC in a field of 3x3x3 cubes, written down from Aulisa et al. (2007), section 2: of the centred
-/// differences of columns along the three axes the one whose own component is largest, unless Youngs'
-/// gradient has a smaller largest component.
+/// differences of columns along the three axes the one whose own component is largest, unless
+/// Youngs' gradient has a smaller largest component.
 struct PublishedMyc {
   Vec3 normal{0.0, 0.0, 0.0};  ///< Σ|component| = 1
   double clearance = 1.0;      ///< how far the decisions are from turning

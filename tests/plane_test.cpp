@@ -116,8 +116,8 @@ TEST_CASE("plane: the offset of a fraction gives that fraction back") {
   worst.check(kPromised);
 }
 
-// Two components alike to the last bits and a third that is next to nothing leave ranges of offsets that are empty by
-// rounding.
+// Two components alike to the last bits and a third that is next to nothing leave ranges of offsets
+// that are empty by rounding.
 TEST_CASE("plane: offsets are finite and right for components that vanish or tie") {
   constexpr double kFar = 2.0;
   for (double small : {0.0, 5e-324, 1e-310, 1e-300, 1e-160, 1e-100, 1.1102230246251565e-16, 1e-15,

@@ -1,5 +1,5 @@
-// Fields from three flow solvers: see the README beside the data. Where the data is absent, the tests say
-// so and do nothing.
+// Fields from three flow solvers: see the README beside the data. Where the data is absent, the
+// tests say so and do nothing.
 
 #include <doctest/doctest.h>
 
@@ -68,8 +68,8 @@ double volume_error(const Reconstruction& result) {
   return result.report.enclosed_volume / result.report.fraction_volume - 1.0;
 }
 
-// Volume of the cells below 1/2 without a neighbour, over faces, edges or corners, of at least 1/2: no
-// dual cell around them has a node inside, so that no contour at 1/2 can hold them.
+// Volume of the cells below 1/2 without a neighbour, over faces, edges or corners, of at least 1/2:
+// no dual cell around them has a node inside, so that no contour at 1/2 can hold them.
 double out_of_reach(const RealField& field) {
   const Index3& dims = field.grid.dims;
   double sum = 0.0;
@@ -154,8 +154,9 @@ TEST_CASE("real fields: a torn film loses what no contour at one half can hold")
     CHECK(measure(film.mesh).manifold);
     CHECK(film.report.closed);
     CHECK(film.report.interfacial_cells < 6000);
-    // A twelfth of the film is thinner than half a cell. What lies in cells that no vertex can reach, and
-    // the ligaments next to it, is all that is lost; plic loses less of the rest than linear.
+    // A twelfth of the film is thinner than half a cell. What lies in cells that no vertex can
+    // reach, and the ligaments next to it, is all that is lost; plic loses less of the rest than
+    // linear.
     const double error = volume_error(film);
     const double unreachable = out_of_reach(*field) / film.report.fraction_volume;
     MESSAGE("film: volume error " << error << ", share out of reach " << unreachable);

@@ -721,7 +721,8 @@ TEST_SUITE("reconstruct: normals and ids") {
   }
 
   TEST_CASE("vertex normals are unit where the planes of an edge lean opposite ways") {
-    // The middle of a film along y: what is left of two normals is rounding, here of the least numbers.
+    // The middle of a film along y: what is left of two normals is rounding, here of the least
+    // numbers.
     Options options;
     options.vertex_normals = true;
     options.placement = Placement::midpoint;

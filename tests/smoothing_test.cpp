@@ -141,9 +141,10 @@ TEST_CASE("smoothing: Laplacian steps shrink a rough sphere and Taubin's do not"
 }
 
 TEST_CASE("smoothing: Taubin's steps have their transfer function") {
-  // Waves round a regular ring of triangles over triangles: on a torus of equal steps the modes of the
-  // umbrella operator are Fourier modes. Heights over a flat periodic lattice would do the same; here
-  // one direction wraps and all rows are alike, which makes each row see cos over its own.
+  // Waves round a regular ring of triangles over triangles: on a torus of equal steps the modes of
+  // the umbrella operator are Fourier modes. Heights over a flat periodic lattice would do the
+  // same; here one direction wraps and all rows are alike, which makes each row see cos over its
+  // own.
   const std::uint32_t around = 32;
   const std::uint32_t mode = 5;
   const TriangleMesh mesh =
@@ -151,8 +152,8 @@ TEST_CASE("smoothing: Taubin's steps have their transfer function") {
         const double angle = 2.0 * std::numbers::pi * i * mode / around;
         return Vec3{0.0, 1.0 * j, std::cos(angle)};
       });
-  // Each vertex has two neighbours in its row, one above and below in its column, and one of the next
-  // column above and of the last below: k = 1 - (2 + 4 cos)/6.
+  // Each vertex has two neighbours in its row, one above and below in its column, and one of the
+  // next column above and of the last below: k = 1 - (2 + 4 cos)/6.
   const double k = 1.0 - (2.0 + 4.0 * std::cos(2.0 * std::numbers::pi * mode / around)) / 6.0;
   for (const double pass_band : {0.05, 0.1, 0.3}) {
     const double lambda = 0.6;

@@ -38,7 +38,8 @@ Bounds bounds_of(const Body& body) {
 
 using Matrix = std::array<Vec3, 3>;
 
-/// Of second derivatives, by central differences of the gradient: off by 1e-8 of the curvature or less.
+/// Of second derivatives, by central differences of the gradient: off by 1e-8 of the curvature or
+/// less.
 Matrix hessian(const Shape& shape, const Vec3& point, double size) {
   const double step = 1e-5 * size;
   Matrix result;

@@ -45,8 +45,8 @@ struct Sample {
   [[nodiscard]] double spacing() const { return grid.spacing[0]; }
 };
 
-/// Exact fractions of a body with `cells` cells per size. Its place within a cell is random, the same
-/// for the same number of a place. At least five cells are free on all sides.
+/// Exact fractions of a body with `cells` cells per size. Its place within a cell is random, the
+/// same for the same number of a place. At least five cells are free on all sides.
 /// \param threads of the library
 [[nodiscard]] Sample sample(const Body& body, double cells, std::uint64_t place, int threads);
 
@@ -56,8 +56,8 @@ struct Curvatures {
   double gaussian = 0.0;
 };
 
-/// Of the exact surface, at its point closest to `point`, which is no further away than a cell or so.
-/// Nothing for meshes and for the golf ball, which has edges.
+/// Of the exact surface, at its point closest to `point`, which is no further away than a cell or
+/// so. Nothing for meshes and for the golf ball, which has edges.
 [[nodiscard]] std::optional<Curvatures> exact_curvatures(const Body& body, const Vec3& point,
                                                          double distance);
 

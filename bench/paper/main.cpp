@@ -1,5 +1,6 @@
-// The paper, reproduced and measured: Evrard, Denner, van Wachem, IEEE TVCG 2019. Writes tables, and meshes
-// for pictures; scripts/paper.sh runs it and draws. docs/paper.md says what each part measures.
+// The paper, reproduced and measured: Evrard, Denner, van Wachem, IEEE TVCG 2019. Writes tables,
+// and meshes for pictures; scripts/paper.sh runs it and draws. docs/paper.md says what each part
+// measures.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Draws the pictures of a run: meshes by `difmesh view` in Chromium, side by side on sheets with captions.
-//   node pictures.mjs NPM-FOLDER DIFMESH CHROMIUM FOLDER
+// Draws the pictures of a run: meshes by `difmesh view` in Chromium, side by side on sheets with
+//   captions. node pictures.mjs NPM-FOLDER DIFMESH CHROMIUM FOLDER
 // reads FOLDER/pictures/sheets.json, writes FOLDER/*.jpg.
 
 import {execFileSync} from 'node:child_process';

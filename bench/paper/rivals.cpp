@@ -1,5 +1,5 @@
-// Smoothing and curvature as VTK's users have them, and ours beside it, on a ball of radius 0.35 N cells:
-// what a grid of N³ cells holds.
+// Smoothing and curvature as VTK's users have them, and ours beside it, on a ball of radius 0.35 N
+// cells: what a grid of N³ cells holds.
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,6 @@
 #pragma once
-// VTK's contours, smoothing and curvature. Apart from the rest because VTK 9.1's headers are not C++20.
+// VTK's contours, smoothing and curvature. Apart from the rest because VTK 9.1's headers are not
+// C++20.
 
 #include <array>
 #include <cstdint>

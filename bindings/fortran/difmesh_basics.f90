@@ -63,8 +63,8 @@ contains
     end do
   end subroutine
 
-  ! The texts that a function of the library gives for a handle and the numbers from 0 on, padded with
-  ! blanks, or cut off.
+  ! The texts that a function of the library gives for a handle and the numbers from 0 on, padded
+  ! with blanks, or cut off.
   subroutine get_list(handle, text_of, list, status, message)
     type(c_ptr), intent(in) :: handle
     procedure(dif_mesh_warning) :: text_of

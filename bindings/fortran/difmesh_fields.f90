@@ -369,8 +369,8 @@ contains
     file%handle = made
   end subroutine
 
-  ! What a user must know of the file though it is no error, one sentence each; of size 0 if there is
-  ! nothing to tell.
+  ! What a user must know of the file though it is no error, one sentence each; of size 0 if there
+  ! is nothing to tell.
   subroutine get_warnings(file, warnings, status, message)
     class(dif_field_file), intent(in) :: file
     character(*), allocatable, intent(out) :: warnings(:)

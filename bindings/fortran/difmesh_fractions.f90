@@ -77,8 +77,8 @@ contains
       status, message)
   end subroutine
 
-  ! Exact fractions of the inside of a closed mesh. Where its parts overlap, options%overlaps decides;
-  ! the report says how much and where.
+  ! Exact fractions of the inside of a closed mesh. Where its parts overlap, options%overlaps
+  ! decides; the report says how much and where.
   subroutine dif_sample_mesh(grid, mesh, fractions, status, options, report, message)
     type(dif_grid), intent(in) :: grid
     type(dif_mesh), intent(in) :: mesh

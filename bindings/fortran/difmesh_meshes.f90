@@ -96,8 +96,9 @@ contains
     call take(mesh, made, status)
   end subroutine
 
-  ! Another mesh with its vertices moved, with normals of the smooth surface if it has normals, without
-  ! scalars; see dif_mesh_smooth in difmesh.h. dif_smoothing_constrained needs the grid of the reconstruction.
+  ! Another mesh with its vertices moved, with normals of the smooth surface if it has normals,
+  ! without scalars; see dif_mesh_smooth in difmesh.h. dif_smoothing_constrained needs the grid of
+  ! the reconstruction.
   subroutine smooth(mesh, from, status, options, grid, message)
     class(dif_mesh), intent(inout) :: mesh
     type(dif_mesh), intent(in) :: from
@@ -453,10 +454,11 @@ contains
       status, message)
   end subroutine
 
-  ! To .ply (double precision), .obj, .off, .stl, .glb, .gltf or .drc, by the extension or by `format`,
-  ! such as 'ply'. `colour_by`, the name of scalars, and `name` are for glTF; all three come before
-  ! those of the options. `report` tells what was written; if that fails it is as dif_init leaves it.
-  ! `warning` is what a user should know though the file is there, or ''; up to 1000 characters.
+  ! To .ply (double precision), .obj, .off, .stl, .glb, .gltf or .drc, by the extension or by
+  ! `format`, such as 'ply'. `colour_by`, the name of scalars, and `name` are for glTF; all three
+  ! come before those of the options. `report` tells what was written; if that fails it is as
+  ! dif_init leaves it. `warning` is what a user should know though the file is there, or ''; up to
+  ! 1000 characters.
   subroutine write_file(mesh, path, status, options, message, colour_by, name, report, format, &
     warning)
     class(dif_mesh), intent(in) :: mesh

@@ -1,5 +1,6 @@
 #pragma once
-// The border between C and C++: no exception crosses it, and structs of other releases are understood.
+// The border between C and C++: no exception crosses it, and structs of other releases are
+// understood.
 
 #include <algorithm>
 #include <cstdint>

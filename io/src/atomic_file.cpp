@@ -27,9 +27,9 @@ bool names_open_stream(const std::filesystem::path& path) {
          name.starts_with("/proc/");
 }
 
-/// The file behind symbolic links, which need not be there yet: a link stays a link when its file is
-/// written. Links among the folders are left to the system; so is an endless chain, which it refuses.
-/// Open streams are links too, which end the way.
+/// The file behind symbolic links, which need not be there yet: a link stays a link when its file
+/// is written. Links among the folders are left to the system; so is an endless chain, which it
+/// refuses. Open streams are links too, which end the way.
 std::filesystem::path behind_links(std::filesystem::path path) {
   std::error_code error;
   for (int links = 0; links < kMostLinks && !names_open_stream(path); ++links) {

@@ -18,9 +18,9 @@ namespace difmesh::detail {
 /// each neighbour again. Only corners where the polygon turns the other way, or not at all, can be
 /// in the way; a tree finds them. Signs of areas are exact.
 ///
-/// Ears are cut in rounds, and no two neighbours in one, which keeps triangles short. Thin ones wait
-/// until there are no others, corners on a straight line until there are no thin ones. Corners at the same place, as where a hole is tied in by a bridge, do
-/// not hinder each other.
+/// Ears are cut in rounds, and no two neighbours in one, which keeps triangles short. Thin ones
+/// wait until there are no others, corners on a straight line until there are no thin ones. Corners
+/// at the same place, as where a hole is tied in by a bridge, do not hinder each other.
 class EarCutter {
  public:
   enum class Result : std::uint8_t { done, crossed, too_long };

@@ -17,8 +17,8 @@ namespace difmesh::detail {
 void inflate_file(const InputFile& file, std::int64_t offset, std::int64_t skip, std::byte* to,
                   std::int64_t bytes);
 
-/// Inflates the stream that starts at `offset` and keeps its last `bytes` bytes, which follow at most
-/// `most_before` others. \throw Error likewise
+/// Inflates the stream that starts at `offset` and keeps its last `bytes` bytes, which follow at
+/// most `most_before` others. \throw Error likewise
 void inflate_end_of_file(const InputFile& file, std::int64_t offset, std::int64_t most_before,
                          std::byte* to, std::int64_t bytes);
 

@@ -25,7 +25,8 @@ struct Source {
   std::int64_t bytes;
 };
 
-/// Bytes that may be inflated only to be skipped: other volumes of a series, or some foreign header.
+/// Bytes that may be inflated only to be skipped: other volumes of a series, or some foreign
+/// header.
 std::int64_t most_skipped(std::int64_t bytes) {
   constexpr std::int64_t kAlways = std::int64_t{1} << 30;
   constexpr std::int64_t kVolumes = 64;

@@ -106,8 +106,8 @@ class Placer {
   }
 
  private:
-  /// Sorts the axes into x, y, z and turns descending ones round. Gives the centre of the first cell
-  /// in ascending order.
+  /// Sorts the axes into x, y, z and turns descending ones round. Gives the centre of the first
+  /// cell in ascending order.
   std::optional<Vec3> by_directions() {
     if (!options_.spacing && (header_.spacings || header_.axis_mins || header_.axis_maxs)) {
       fail_format(path_, "'space directions' exclude 'spacings', 'axis mins' and 'axis maxs'");

@@ -9,8 +9,8 @@
 
 namespace difmesh::detail {
 
-/// Sets dims, strides, first, origin and spacing of `field`, of the latter those that the options do
-/// not give; what they replace is not judged.
+/// Sets dims, strides, first, origin and spacing of `field`, of the latter those that the options
+/// do not give; what they replace is not judged.
 /// \throw Error file_format if the axes are rotated, contradict each other or are not finite.
 void place(const std::filesystem::path& path, const NrrdHeader& header,
            const ReadFieldOptions& options, FieldFile& field);

@@ -81,8 +81,8 @@ struct OffLayout {
 };
 
 /// What Geomview reads, and more than it does where that is in use. A word can be a colour in one
-/// and a coordinate in another, so all of the file must fit; the last two are for files with something
-/// behind the faces, which across lines must be more faces.
+/// and a coordinate in another, so all of the file must fit; the last two are for files with
+/// something behind the faces, which across lines must be more faces.
 constexpr std::array<OffLayout, 5> kLayouts{{{false, true, true, true},
                                              {true, false, true, true},
                                              {true, false, false, true},

@@ -12,8 +12,8 @@ namespace difmesh::detail {
 class Omissions {
  public:
   /// \param place the first of a kind is named
-  /// \param what follows it in the sentence, and tells the kinds apart; not the file's own words, of
-  ///   which there may be many
+  /// \param what follows it in the sentence, and tells the kinds apart; not the file's own words,
+  ///   of which there may be many
   void note(const std::string& place, const std::string& what);
   void add_to(std::vector<std::string>& warnings, const std::filesystem::path& path) const;
 

@@ -32,8 +32,8 @@ Role role_of(const PlyProperty& property) {
   return fits ? role : Role::none;
 }
 
-/// Whether a property becomes scalars of the mesh: a float under a name that scalars may have, which
-/// colours (integers) and lists are not.
+/// Whether a property becomes scalars of the mesh: a float under a name that scalars may have,
+/// which colours (integers) and lists are not.
 bool is_scalar(const PlyProperty& property) {
   const auto is_good = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';

@@ -1,7 +1,7 @@
 #pragma once
 /// \file ply_values.hpp
-/// The values of a PLY file one after the other, text and binary by the same calls. Copies go on from
-/// where the original is.
+/// The values of a PLY file one after the other, text and binary by the same calls. Copies go on
+/// from where the original is.
 
 #include <algorithm>
 #include <array>

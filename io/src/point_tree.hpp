@@ -13,8 +13,8 @@ namespace difmesh::detail {
 using Point2 = std::array<double, 2>;
 
 /// Twice the signed area of the triangle a, b, c, with the right sign; > 0 if counter-clockwise.
-/// Exact in sign unless products of coordinates underflow. Source: Shewchuk, Discrete & Computational
-/// Geometry 18 (1997), with the expansions in full where the filter does not tell.
+/// Exact in sign unless products of coordinates underflow. Source: Shewchuk, Discrete &
+/// Computational Geometry 18 (1997), with the expansions in full where the filter does not tell.
 [[nodiscard]] double turn(const Point2& a, const Point2& b, const Point2& c);
 
 /// A balanced tree over points, which may leave it one by one.
@@ -23,8 +23,8 @@ class PointTree {
   /// Over the points of these numbers. Cost: O(n log n)
   void build(std::span<const Point2> points, std::vector<std::uint32_t> numbers);
   void remove(std::uint32_t number);
-  /// Whether a point is in the counter-clockwise triangle or on its border. Points at the place of a
-  /// corner do not count. Cost: O(log n), and each part of the tree that the border crosses.
+  /// Whether a point is in the counter-clockwise triangle or on its border. Points at the place of
+  /// a corner do not count. Cost: O(log n), and each part of the tree that the border crosses.
   [[nodiscard]] bool any_in(const std::array<Point2, 3>& triangle);
   /// Parts of the tree seen by any_in() since build().
   [[nodiscard]] std::uint64_t visits() const { return visits_; }

@@ -112,9 +112,10 @@ Mesh read_binary(const std::filesystem::path& path, std::string_view bytes, std:
 
 enum class Word : std::uint8_t { solid, end_solid, facet, end_facet, loop, end_loop, vertex, none };
 
-/// Reads the words `vertex x y z`, three to each loop, in any layout of lines. Of what else stands in
-/// a line (normals, names, numbers behind a vertex) nothing counts, but a line starts with a word of
-/// STL. `end loop`, `endsolidname` and solids without end are as common as what they stand for.
+/// Reads the words `vertex x y z`, three to each loop, in any layout of lines. Of what else stands
+/// in a line (normals, names, numbers behind a vertex) nothing counts, but a line starts with a
+/// word of STL. `end loop`, `endsolidname` and solids without end are as common as what they stand
+/// for.
 class TextReader {
  public:
   TextReader(const std::filesystem::path& path, std::string_view text)

@@ -8,7 +8,8 @@
 
 namespace difmesh::detail {
 
-/// Adds "'path': matter.", printable, unless it is there already. What exceeds 1000 bytes is cut off.
+/// Adds "'path': matter.", printable, unless it is there already. What exceeds 1000 bytes is cut
+/// off.
 void add_warning(std::vector<std::string>& warnings, const std::filesystem::path& path,
                  const std::string& matter);
 

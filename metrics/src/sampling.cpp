@@ -172,8 +172,9 @@ class Sampling {
     for (const std::uint32_t v : corners) {
       tally.add_to_means(at_vertices_[v], corner_weight);
     }
-    // Points next to each other form triangles of half a part's size. In a triangle with the longest
-    // edge l no point is further than l / √3 from all corners; where it is equilateral, the centre.
+    // Points next to each other form triangles of half a part's size. In a triangle with the
+    // longest edge l no point is further than l / √3 from all corners; where it is equilateral, the
+    // centre.
     return extent.longest / (2.0 * static_cast<double>(parts) * std::sqrt(3.0));
   }
 

@@ -51,8 +51,8 @@ float above(double x) {
   return std::nextafter(static_cast<float>(x), kInfinity);
 }
 
-/// Calls the body in an arena of at most `threads` threads: Embree takes its threads from the arena that
-/// it is called in, and is in parallel by oneTBB even where the library is not.
+/// Calls the body in an arena of at most `threads` threads: Embree takes its threads from the arena
+/// that it is called in, and is in parallel by oneTBB even where the library is not.
 template <class Body>
 void with_threads([[maybe_unused]] int threads, const Body& body) {
 #ifdef DIFMESH_WITH_TBB

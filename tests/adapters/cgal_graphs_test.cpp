@@ -1,5 +1,6 @@
-// Surfaces in other graphs of CGAL: Polyhedron_3 (GPL: for tests only), and OpenMesh's meshes behind
-// CGAL's functions. With CGAL_USE_OM_POINTS, else CGAL itself rounds OpenMesh's points to float.
+// Surfaces in other graphs of CGAL: Polyhedron_3 (GPL: for tests only), and OpenMesh's meshes
+// behind CGAL's functions. With CGAL_USE_OM_POINTS, else CGAL itself rounds OpenMesh's points to
+// float.
 
 #define CGAL_USE_OM_POINTS
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -1,5 +1,5 @@
-// Surfaces in CGAL's Surface_mesh, over several kernels. Surface_mesh and PMP are under the GPL: for
-// tests only.
+// Surfaces in CGAL's Surface_mesh, over several kernels. Surface_mesh and PMP are under the GPL:
+// for tests only.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Simple_cartesian.h>
@@ -16,7 +16,8 @@
 #include "support/fields.hpp"
 #include "support/mesh_field.hpp"
 
-// Sanitizers make this unit the dearest of all to compile: what is theirs to find shows with two kernels.
+// Sanitizers make this unit the dearest of all to compile: what is theirs to find shows with two
+// kernels.
 #ifndef DIFMESH_SANITIZED
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #endif

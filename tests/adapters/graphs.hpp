@@ -36,8 +36,8 @@ Graph built_by_cgal(const Mesh& mesh) {
   return other;
 }
 
-/// What CGAL finds wrong, or nothing. Vertices without faces, which no valid polygon mesh of CGAL has,
-/// are taken away first.
+/// What CGAL finds wrong, or nothing. Vertices without faces, which no valid polygon mesh of CGAL
+/// has, are taken away first.
 template <class Graph>
 std::string judged_by_cgal(Graph graph) {
   using Traits = boost::graph_traits<Graph>;
@@ -58,9 +58,9 @@ std::string judged_by_cgal(Graph graph) {
   return tips.empty() ? "" : std::to_string(tips.size()) + " vertices that are not manifold";
 }
 
-/// The structure of a graph in numbers: of each halfedge its opposite, next and previous one, vertex
-/// and face; of each face its halfedge; of each vertex its halfedge if that is at the border, else
-/// whether it has one that ends there.
+/// The structure of a graph in numbers: of each halfedge its opposite, next and previous one,
+/// vertex and face; of each face its halfedge; of each vertex its halfedge if that is at the
+/// border, else whether it has one that ends there.
 template <class Graph>
 std::vector<std::size_t> structure(const Graph& graph) {
   using Traits = boost::graph_traits<Graph>;

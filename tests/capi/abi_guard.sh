@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Holds libdifmesh.so and difmesh.h against what was promised: exported.txt, the functions that leave the
-# library, and difmesh.abi, all of the header's functions, structs and types as libabigail sees them. Then
-# makes incompatible changes to copies of the header and fails unless each of them is noticed.
-#   abi_guard.sh LIBRARY          check
-#   abi_guard.sh LIBRARY update   write both files anew: after additions, never after incompatible changes
-# The library is the real one; its types are taken from the header, with a function of no effect for each
-# declaration, for the real functions drag in all that C++ they use.
+# Holds libdifmesh.so and difmesh.h against what was promised: exported.txt, the functions that
+# leave the library, and difmesh.abi, all of the header's functions, structs and types as libabigail
+# sees them. Then makes incompatible changes to copies of the header and fails unless each of them
+#   is noticed. abi_guard.sh LIBRARY          check
+#   abi_guard.sh LIBRARY update   write both files anew: after additions, never after incompatible
+# changes The library is the real one; its types are taken from the header, with a function of no
+# effect for each declaration, for the real functions drag in all that C++ they use.
 set -euo pipefail
 export LC_ALL=C
 
@@ -77,7 +77,8 @@ caught() {
   echo "caught: $1"
 }
 caught swapped_fields '/^typedef struct dif_options/,/^}/ {
-  s/double purity_tolerance;/double purity_tolerance_;/; s/double overshoot_bound;/double purity_tolerance;/
+  s/double purity_tolerance;/double purity_tolerance_;/
+  s/double overshoot_bound;/double purity_tolerance;/
   s/double purity_tolerance_;/double overshoot_bound;/ }' 'purity_tolerance'
 caught narrower_field 's/^  int64_t interfacial_cells;/  int32_t interfacial_cells, spare;/' \
   'interfacial_cells'

@@ -1,4 +1,5 @@
-// Every allocation of a call fails once, and every progress call cancels once: a status, nothing leaked.
+// Every allocation of a call fails once, and every progress call cancels once: a status, nothing
+// leaked.
 
 #include <doctest/doctest.h>
 #include <unistd.h>
@@ -70,8 +71,8 @@ namespace {
 
 namespace test = difmesh::test;
 
-// Fails the first allocation of a call, then the second, until it gets through. The call gives back what it
-// made, so that all it allocated must be gone.
+// Fails the first allocation of a call, then the second, until it gets through. The call gives back
+// what it made, so that all it allocated must be gone.
 template <class Call>
 void fail_each_allocation(const char* name, const Call& call) {
   INFO(std::string(name));
@@ -338,7 +339,8 @@ TEST_CASE("what is too large for the memory is told before it is read") {
         "row");
   CHECK(rows.calls == 0);
 
-  // The planes of a layer of interfacial cells along open sides: known as soon as too many are seen.
+  // The planes of a layer of interfacial cells along open sides: known as soon as too many are
+  // seen.
   ConstantField layer;
   largest_allocation = 70'000'000;
   const dif_status of_layer = layer.reconstruct({4000, 4000, 1});

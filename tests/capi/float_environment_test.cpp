@@ -1,5 +1,5 @@
-// Callers with floating-point settings of their own: traps, rounding, subnormal numbers as 0, raised
-// flags. Every job gives the same bits, no trap is sprung, and all is left as it was.
+// Callers with floating-point settings of their own: traps, rounding, subnormal numbers as 0,
+// raised flags. Every job gives the same bits, no trap is sprung, and all is left as it was.
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,6 @@
-/* The header in every language and standard that it promises, compiled only. Values of constants and
- * places of fields are frozen: what fails to compile here would break programs that are already built. */
+/* The header in every language and standard that it promises, compiled only. Values of constants
+ * and places of fields are frozen: what fails to compile here would break programs that are already
+ * built. */
 #include "difmesh/difmesh.h"
 #include "difmesh/difmesh.h" /* twice */
 

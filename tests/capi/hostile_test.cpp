@@ -1,5 +1,5 @@
-// Every function against bad arguments: a status that says so, never a crash. The table must name every
-// function that the library exports.
+// Every function against bad arguments: a status that says so, never a crash. The table must name
+// every function that the library exports.
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,5 @@
-// Curvature, smoothing and mollification through the C interface are those of the core, bit for bit.
+// Curvature, smoothing and mollification through the C interface are those of the core, bit for
+// bit.
 
 #include "difmesh/smoothing.hpp"
 

@@ -12,8 +12,8 @@ namespace {
 
 namespace test = difmesh::test;
 
-// Memory of a caller whose struct has `size` bytes, with a guard behind it. The whole must be large enough
-// for the struct, as the compiler may assume that where it sees the type.
+// Memory of a caller whose struct has `size` bytes, with a guard behind it. The whole must be large
+// enough for the struct, as the compiler may assume that where it sees the type.
 class CallersStruct {
  public:
   explicit CallersStruct(std::size_t size) : size_(size), words_(kWords, kGuard) {}
@@ -66,8 +66,9 @@ void check_init(const char* name, const Init& init) {
   CHECK(init(nullptr, sizeof(Struct)) == DIF_ERROR_INVALID_ARGUMENT);
 }
 
-// A call that reads a struct: its defaults in every length give DIF_OK, zeros of a longer one too, and
-// something in its unknown tail is refused. Lengths below `least` lack what the call cannot do without.
+// A call that reads a struct: its defaults in every length give DIF_OK, zeros of a longer one too,
+// and something in its unknown tail is refused. Lengths below `least` lack what the call cannot do
+// without.
 template <class Struct, class Init, class Call>
 void check_reading(const char* name, const Init& init, const Call& call, std::size_t least = 8) {
   INFO(std::string(name));

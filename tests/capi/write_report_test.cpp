@@ -65,7 +65,8 @@ difmesh::Array<difmesh::Vec3> corners_of(const difmesh::Mesh& mesh) {
   return corners;
 }
 
-// A surface between the numbers that float32 has, and a vertex of no triangle that is further off them.
+// A surface between the numbers that float32 has, and a vertex of no triangle that is further off
+// them.
 c::MeshHandle surface_with_a_stray_vertex() {
   const c::OwnedField blob = c::blob({12, 11, 10});
   dif_field field = c::c_field(blob);

@@ -1,5 +1,5 @@
-# The project `adapters`, against the installed package, with g++ and with clang, optimised: some warnings
-# come only then.
+# The project `adapters`, against the installed package, with g++ and with clang, optimised: some
+# warnings come only then.
 
 cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/consumer.cmake)

@@ -1,4 +1,5 @@
-# The example in C by a compiler and pkg-config alone, against the shared library and the static one.
+# The example in C by a compiler and pkg-config alone, against the shared library and the static
+# one.
 
 cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/consumer.cmake)

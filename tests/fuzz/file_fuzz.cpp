@@ -1,5 +1,5 @@
-// A reader of files on any bytes, under the name DIFMESH_FUZZ_NAME: an error, or a field that can be
-// reconstructed, or a mesh that can be measured. The input is the file.
+// A reader of files on any bytes, under the name DIFMESH_FUZZ_NAME: an error, or a field that can
+// be reconstructed, or a mesh that can be measured. The input is the file.
 
 #include <unistd.h>
 

@@ -1,5 +1,5 @@
-// Runs a fuzz target over files, so that inputs that once did harm, and some of every kind, are tried in every
-// build and by every compiler. Arguments: files or folders of files.
+// Runs a fuzz target over files, so that inputs that once did harm, and some of every kind, are
+// tried in every build and by every compiler. Arguments: files or folders of files.
 
 #include <cstdint>
 #include <cstdio>

@@ -31,7 +31,8 @@ function check(truth, what, words) {
 
 /// The rows of a PNG of 8 bits without interlacing.
 function pixelsOf(png) {
-  const [width, height, channels] = [png.readUInt32BE(16), png.readUInt32BE(20), png[25] === 6 ? 4 : 3];
+  const [width, height] = [png.readUInt32BE(16), png.readUInt32BE(20)];
+  const channels = png[25] === 6 ? 4 : 3;
   const parts = [];
   for (let at = 8; at < png.length; at += 12 + png.readUInt32BE(at)) {
     if (png.toString('latin1', at + 4, at + 8) === 'IDAT') {
@@ -142,7 +143,8 @@ async function onePage() {
   await page.mouse.wheel(0, -300);
   await page.waitForTimeout(100);
   const close = await eye(page);
-  check(close.distance < 0.95 * far.distance, what, `the wheel leaves the eye at ${close.distance}`);
+  check(close.distance < 0.95 * far.distance, what,
+    `the wheel leaves the eye at ${close.distance}`);
   // Dragging turns a ball into itself.
   await page.mouse.down();
   await page.mouse.move(420, 200, {steps: 4});

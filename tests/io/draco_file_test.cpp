@@ -95,7 +95,8 @@ TEST_CASE("edgebreaker draco keeps the shape at every speed") {
     CHECK(found.manifold);
     CHECK(found.euler_number == 2);
     CHECK(found.triangles == wanted.triangles);
-    // Vertices off by at most e in each coordinate change the volume by at most √3 e times the area.
+    // Vertices off by at most e in each coordinate change the volume by at most √3 e times the
+    // area.
     CHECK(std::abs(found.volume - wanted.volume) <=
           std::numbers::sqrt3 * report.position_error * wanted.area);
   }

@@ -200,7 +200,8 @@ TEST_CASE("values of files: a label mask gives the surface of the same mask of b
 }
 
 TEST_CASE("values of files: numbers of half precision") {
-  // Zero, the least, the greatest below 1, 1, -2, the greatest, infinity, NaN; IEEE 754-2008, table 3.5.
+  // Zero, the least, the greatest below 1, 1, -2, the greatest, infinity, NaN; IEEE 754-2008, table
+  // 3.5.
   const std::vector<std::uint16_t> halves{0x0000, 0x0001, 0x3bff, 0x3c00,
                                           0xc000, 0x7bff, 0x7c00, 0x7e00};
   const TempFolder folder;

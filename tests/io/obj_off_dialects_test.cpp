@@ -285,7 +285,8 @@ TEST_CASE("off: messages are those of the layout that the file has") {
 }
 
 TEST_CASE("obj and off: huge faces that are not convex are cut") {
-  // A comb of 100,000 teeth: one face of 200,003 corners, 400,000 triangles' worth of test would do.
+  // A comb of 100,000 teeth: one face of 200,003 corners, 400,000 triangles' worth of test would
+  // do.
   std::string text = "v 0 -1 0\n";
   std::string face = "f 1";
   constexpr int kTeeth = 100000;

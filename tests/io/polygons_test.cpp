@@ -1,4 +1,5 @@
-// Polygons of files as triangles: their edges and area are those of the polygon, whatever its shape.
+// Polygons of files as triangles: their edges and area are those of the polygon, whatever its
+// shape.
 
 #include "polygons.hpp"
 

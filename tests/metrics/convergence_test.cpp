@@ -1,5 +1,5 @@
-// The whole chain on shapes with known surfaces: fractions by quadrature, reconstruction, distance of
-// the vertices. Errors of plic must fall with the square of the cell size.
+// The whole chain on shapes with known surfaces: fractions by quadrature, reconstruction, distance
+// of the vertices. Errors of plic must fall with the square of the cell size.
 
 #include <doctest/doctest.h>
 
@@ -28,8 +28,8 @@ struct Field {
   Array<double> fractions;
 };
 
-// The box is the shape's with a margin of three cells, moved by the given share of a cell: the maximum
-// depends on how the surface lies in the grid.
+// The box is the shape's with a margin of three cells, moved by the given share of a cell: the
+// maximum depends on how the surface lies in the grid.
 Field field_of(const Shape& shape, double spacing, double moved) {
   const Bounds bounds = shape.bounds();
   Field field;

@@ -14,8 +14,8 @@ namespace difmesh::test {
 
 /// The crossed edge of each name, with the library's planes of its two cells. A cell without
 /// gradient has its plane across the edge.
-/// \param fractions one per cell in [0,1], x fastest \param edge_ids as of Mesh::edge_ids; both ends
-///   of each edge lie within the grid
+/// \param fractions one per cell in [0,1], x fastest \param edge_ids as of Mesh::edge_ids; both
+///   ends of each edge lie within the grid
 [[nodiscard]] std::vector<CrossedEdge> crossed_edges(std::span<const double> fractions,
                                                      const Grid& grid, const Options& options,
                                                      std::span<const std::uint64_t> edge_ids);

@@ -20,8 +20,8 @@ struct ParameterGrid {
   bool closed_rows = false;
 };
 
-/// Vertex (i, j) is at place(i, j); triangles run counter-clockwise where i grows to the right and j
-/// upwards.
+/// Vertex (i, j) is at place(i, j); triangles run counter-clockwise where i grows to the right and
+/// j upwards.
 template <class Place>
 [[nodiscard]] TriangleMesh parametric_mesh(const ParameterGrid& grid, const Place& place) {
   TriangleMesh mesh;

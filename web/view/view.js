@@ -42,7 +42,8 @@ class Surface {
         this.scalars.set(facts.name, {...facts, attribute: semantic.toLowerCase()});
       }
       const count = node.geometry.attributes.position.count;
-      node.geometry.setAttribute('color', new three.BufferAttribute(new Float32Array(3 * count), 3));
+      const colors = new three.BufferAttribute(new Float32Array(3 * count), 3);
+      node.geometry.setAttribute('color', colors);
     });
   }
 
@@ -220,7 +221,9 @@ load().then((surfaces) => {
   const viewer = new Viewer(surfaces);
   addPanel(viewer);
   window.difmesh = viewer;
-  requestAnimationFrame(() => requestAnimationFrame(() => { document.body.dataset.state = 'ready'; }));
+  requestAnimationFrame(() => requestAnimationFrame(() => {
+    document.body.dataset.state = 'ready';
+  }));
 }).catch((error) => {
   document.body.dataset.state = 'failed';
   find('facts').textContent = `The surface cannot be shown: ${error.message}`;

@@ -1,13 +1,14 @@
 #pragma once
 /// \file cgal.hpp
 /// Surfaces into CGAL and back, without files: to_cgal, append_to_cgal, mesh_from_cgal. For
-/// CGAL::Surface_mesh over any kernel, and any model of MutableFaceGraph whose vertices have points:
-/// Polyhedron_3, OpenMesh's meshes through CGAL/boost/graph. Header-only; users link CGAL, and
-/// nothing of difmesh. For meshes of libdifmesh see c_mesh.hpp.
+/// CGAL::Surface_mesh over any kernel, and any model of MutableFaceGraph whose vertices have
+/// points: Polyhedron_3, OpenMesh's meshes through CGAL/boost/graph. Header-only; users link CGAL,
+/// and nothing of difmesh. For meshes of libdifmesh see c_mesh.hpp.
 ///
 /// Licences: difmesh is under MIT and includes of CGAL only headers under the LGPL here. CGAL's
-/// Surface_mesh, Polyhedron_3 and Polygon_mesh_processing are under the GPL (or a commercial licence
-/// of GeometryFactory): a program that includes them and is passed on comes under its terms.
+/// Surface_mesh, Polyhedron_3 and Polygon_mesh_processing are under the GPL (or a commercial
+/// licence of GeometryFactory): a program that includes them and is passed on comes under its
+/// terms.
 ///
 /// Include the header of the mesh itself before: <CGAL/Surface_mesh.h>, <CGAL/Polyhedron_3.h> or
 /// <CGAL/boost/graph/graph_traits_TriMesh_ArrayKernelT.h>.
@@ -38,11 +39,11 @@ namespace difmesh {
 /// \throw Error invalid_argument (arrays that do not fit); invalid_value for a position that is
 ///   NaN, infinite or beyond the kernel's float, with its vertex; too_large for more items than
 ///   Surface_mesh has indices. The mesh is then as it was.
-/// Cost: linear. Surface_mesh: some 60 ns per triangle, two fifths of the time of add_face() in a loop,
-/// and 14 bytes per triangle on top of the mesh's own memory while it lasts. Polyhedron_3: 0.3 µs and
-/// 38 bytes; its own builder takes hardly longer, for most of the time goes into the list nodes that
-/// it makes one by one. Soups with faces to refuse take 0.5 to 1 µs per triangle. Thread safety:
-/// concurrent calls for different meshes are safe.
+/// Cost: linear. Surface_mesh: some 60 ns per triangle, two fifths of the time of add_face() in a
+/// loop, and 14 bytes per triangle on top of the mesh's own memory while it lasts. Polyhedron_3:
+/// 0.3 µs and 38 bytes; its own builder takes hardly longer, for most of the time goes into the
+/// list nodes that it makes one by one. Soups with faces to refuse take 0.5 to 1 µs per triangle.
+/// Thread safety: concurrent calls for different meshes are safe.
 template <class PolygonMesh>
 ImportReport append_to_cgal(PolygonMesh& mesh, const MeshView& view,
                             const ImportOptions& options = {}) {
@@ -73,8 +74,8 @@ ImportReport append_to_cgal(PolygonMesh& mesh, const MeshView& view,
   return std::move(plan.report);
 }
 
-/// A new mesh: `auto [mesh, report] = difmesh::to_cgal<MyMesh>(surface);` Polyhedron_3 cannot be moved:
-/// taking `.mesh` from the result copies it.
+/// A new mesh: `auto [mesh, report] = difmesh::to_cgal<MyMesh>(surface);` Polyhedron_3 cannot be
+/// moved: taking `.mesh` from the result copies it.
 /// \throw as append_to_cgal()
 template <class PolygonMesh>
 [[nodiscard]] Import<PolygonMesh> to_cgal(const MeshView& view, const ImportOptions& options = {}) {

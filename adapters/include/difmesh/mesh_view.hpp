@@ -80,8 +80,8 @@ struct RefusedFace {
   Refusal reason = Refusal::degenerate;
 };
 
-/// Facts about one import. Faces keep their order, so that the n-th face that was not refused is the
-/// n-th new one.
+/// Facts about one import. Faces keep their order, so that the n-th face that was not refused is
+/// the n-th new one.
 struct ImportReport {
   std::int64_t vertices = 0;              ///< added; all of the source, those without a face too
   std::int64_t edges = 0;                 ///< added

@@ -30,8 +30,8 @@ namespace difmesh {
 ///   NaN, infinite or beyond float, with its vertex; too_large beyond 2^31 - 1 vertices or
 ///   halfedges in all. The mesh is then as it was.
 /// Cost: linear, some 70 ns per triangle, a fifth of the time of add_face() in a loop; 14 bytes per
-/// triangle on top of the mesh's own memory while it lasts. Soups with faces to refuse take 0.5 to 1 µs
-/// per triangle. Thread safety: concurrent calls for different meshes are safe.
+/// triangle on top of the mesh's own memory while it lasts. Soups with faces to refuse take 0.5 to
+/// 1 µs per triangle. Thread safety: concurrent calls for different meshes are safe.
 template <class OMesh>
 ImportReport append_to_openmesh(OMesh& mesh, const MeshView& view,
                                 const ImportOptions& options = {}) {
@@ -47,8 +47,8 @@ ImportReport append_to_openmesh(OMesh& mesh, const MeshView& view,
   return std::move(plan.report);
 }
 
-/// A new mesh: `auto [mesh, report] = difmesh::to_openmesh<MyMesh>(surface);` OpenMesh's meshes cannot
-/// be moved: taking `.mesh` from the result copies it.
+/// A new mesh: `auto [mesh, report] = difmesh::to_openmesh<MyMesh>(surface);` OpenMesh's meshes
+/// cannot be moved: taking `.mesh` from the result copies it.
 /// \throw as append_to_openmesh()
 template <class OMesh>
 [[nodiscard]] Import<OMesh> to_openmesh(const MeshView& view, const ImportOptions& options = {}) {

@@ -278,9 +278,9 @@ class Mesh:
         was written: the file's size, counts, and by how much coordinates are off.
 
         difmesh/io/mesh_file.hpp says what each keeps; a library without glTF or Draco refuses
-        these. The extension tells, unless `format` does: "ply" for instance. Normals and names of edges are written where the mesh and the format have them,
-        unless switched off. The file appears when it is complete; on an error nothing is left
-        behind.
+        these. The extension tells, unless `format` does: "ply" for instance. Normals and names of
+        edges are written where the mesh and the format have them, unless switched off. The file
+        appears when it is complete; on an error nothing is left behind.
 
         scalars: names to arrays (n,) of numbers to write, besides those that the mesh has, to PLY,
         glTF and Draco files.

@@ -89,8 +89,8 @@ def cell_planes(
 ) -> Planes:
     """Normals and planes of some cells, given as integers (n, 3): i, j, k in x, y, z.
 
-    The field is read only near these cells; NaN there count as some fraction. Results have the shapes (n, 3),
-    (n,) and (n,). Other arguments and exceptions as for reconstruct().
+    The field is read only near these cells; NaN there count as some fraction. Results have the
+    shapes (n, 3), (n,) and (n,). Other arguments and exceptions as for reconstruct().
     """
     given = np.asarray(cells)
     if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in "iu":

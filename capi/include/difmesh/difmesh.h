@@ -20,8 +20,8 @@
  * What holds for all of it
  *
  * Stability. Functions, constants and struct fields that a release has shipped keep their names,
- *   values, places and meanings for as long as the library is called libdifmesh.so.0; only section 8
- *   is exempt. New fields are added at the ends of structs, new constants beside the old ones.
+ *   values, places and meanings for as long as the library is called libdifmesh.so.0; only section
+ *   8 is exempt. New fields are added at the ends of structs, new constants beside the old ones.
  * Status. Functions return DIF_OK (0) or an error. On an error, output parameters are untouched
  *   (handles set to NULL) unless said otherwise, and dif_last_message() tells what is wrong and
  *   where. No C++ exception leaves the library, and bad arguments never crash it, as far as can be
@@ -29,17 +29,17 @@
  * Structs begin with their size, as the caller was compiled to see it, and are prepared by their
  *   _init function, which also fills in the defaults: dif_options_init(&options, sizeof options). A
  *   caller compiled against an older header has shorter structs: fields that it does not know take
- *   their defaults. One compiled against a newer header has longer ones: they are accepted as long as all
- *   bytes beyond the known ones are 0, and refused (DIF_ERROR_STRUCT) otherwise. Output structs are
- *   filled as far as they reach; bytes beyond become 0. Sizes are multiples of 8. Fields called
- *   `reserved` must be 0.
+ *   their defaults. One compiled against a newer header has longer ones: they are accepted as long
+ *   as all bytes beyond the known ones are 0, and refused (DIF_ERROR_STRUCT) otherwise. Output
+ *   structs are filled as far as they reach; bytes beyond become 0. Sizes are multiples of 8.
+ *   Fields called `reserved` must be 0.
  * Options. NULL in place of an options struct means the defaults.
  * Pointers. `double* x` points to one number, `double x[]` to as many as the function's comment
  *   says. NULL is refused unless that comment or these lines say that `x` may be NULL.
  * Handles (dif_mesh and others) are opaque. Whoever gets one frees it, once, with its _free
  *   function, which takes NULL too.
- * Borrowed pointers, such as those of dif_mesh_positions(), belong to the handle and are valid until
- *   it is freed or changed.
+ * Borrowed pointers, such as those of dif_mesh_positions(), belong to the handle and are valid
+ *   until it is freed or changed.
  * Arrays are given with their number of elements where it does not follow from other arguments.
  *   Points are three doubles x, y, z; triangles three indices; cells three indices i, j, k (x, y,
  *   z). Arrays of 0 elements may be NULL.
@@ -49,8 +49,8 @@
  *   must not free what the running call uses.
  * Threads. The library has no global state that changes, but for two messages per thread. Different
  *   threads may call any functions at once, also with the same handles, as long as none of them
- *   changes or frees the handle. `threads` in options: at most so many, 0 for as many as the machine
- *   has; no result depends on it, to the last bit.
+ *   changes or frees the handle. `threads` in options: at most so many, 0 for as many as the
+ *   machine has; no result depends on it, to the last bit.
  * Floating point. The library computes with the default settings, whatever those of the caller:
  *   round to nearest, no traps, subnormal numbers as they are (programs compiled with -ffast-math
  *   take them for 0). So no result depends on them, and no trap that the caller has set, say by
@@ -134,9 +134,9 @@ enum {
 /* 1 if this build has the part, 0 if not or if there is no such part. Since 0.1. */
 DIF_API int32_t dif_has(int32_t part);
 
-/* Called now and then during long work, always on the thread that called the library, with the share
- * done in [0, 1], never decreasing. Return 0 to go on; anything else cancels: the call returns
- * DIF_ERROR_CANCELLED and gives nothing. */
+/* Called now and then during long work, always on the thread that called the library, with the
+ * share done in [0, 1], never decreasing. Return 0 to go on; anything else cancels: the call
+ * returns DIF_ERROR_CANCELLED and gives nothing. */
 typedef int32_t (*dif_progress)(void* user, double share_done);
 
 /* ============================== 2. The main job =============================================== */
@@ -158,9 +158,9 @@ typedef struct dif_field {
   double spacing[3];  /* edges of a cell, in [2^-300, 2^300] */
 } dif_field;
 
-/* Describes `dims[0]` x `dims[1]` x `dims[2]` cells that lie without gaps, x fastest, as in a C array
- * [nz][ny][nx] or a Fortran array (nx, ny, nz); origin 0, spacing 1. Set other strides, origin and
- * spacing afterwards. Nothing of `data` is read here.
+/* Describes `dims[0]` x `dims[1]` x `dims[2]` cells that lie without gaps, x fastest, as in a C
+ * array [nz][ny][nx] or a Fortran array (nx, ny, nz); origin 0, spacing 1. Set other strides,
+ * origin and spacing afterwards. Nothing of `data` is read here.
  * Errors: INVALID_ARGUMENT, INVALID_GRID (a dim < 1), TOO_LARGE, STRUCT. Since 0.1. */
 DIF_API dif_status dif_field_init(dif_field* field, uint64_t struct_size, const void* data,
                                   int32_t type, const int64_t dims[3]);
@@ -219,13 +219,13 @@ typedef struct dif_mesh dif_mesh;
 /* Reconstructs the surface of a field: marching cubes on the grid of cell centres at 1/2, with the
  * vertices where `placement` puts them. The mesh is manifold and free of self-intersections for
  * every field. It ends only on `open` and `mirror` sides, at the ends of the period of `periodic`
- * axes, which are the first cell centre and its image, and along edges of the domain where an `empty`
- * side meets a `full` one. An empty field gives an empty mesh. Where DIF_UINT8 or DIF_UINT16 hardly
- * hold shares of 255 or 65535, dif_mesh_warning() says so and names the highest value: in masks and
- * segmentations no cell is full, and none is half full or there are at most 16 different values.
- * OUT_OF_MEMORY comes before the pass over the field where that is known already.
- * Errors: INVALID_ARGUMENT, INVALID_GRID, INVALID_VALUE, STRUCT, TOO_LARGE, OUT_OF_MEMORY, CANCELLED.
- * Cost: one pass over the field, then O(interfacial cells). Since 0.1. */
+ * axes, which are the first cell centre and its image, and along edges of the domain where an
+ * `empty` side meets a `full` one. An empty field gives an empty mesh. Where DIF_UINT8 or
+ * DIF_UINT16 hardly hold shares of 255 or 65535, dif_mesh_warning() says so and names the highest
+ * value: in masks and segmentations no cell is full, and none is half full or there are at most 16
+ * different values. OUT_OF_MEMORY comes before the pass over the field where that is known already.
+ * Errors: INVALID_ARGUMENT, INVALID_GRID, INVALID_VALUE, STRUCT, TOO_LARGE, OUT_OF_MEMORY,
+ * CANCELLED. Cost: one pass over the field, then O(interfacial cells). Since 0.1. */
 DIF_API dif_status dif_reconstruct(const dif_field* field, const dif_options* options,
                                    dif_mesh** mesh);
 
@@ -282,7 +282,8 @@ DIF_API dif_status dif_mesh_report(const dif_mesh* mesh, dif_report* report);
 /* ============================== 3. More about meshes ========================================== */
 
 /* A mesh from arrays, which are copied. Coordinates are not looked at.
- * Errors: INVALID_ARGUMENT (an index out of range is named), TOO_LARGE, OUT_OF_MEMORY. Since 0.1. */
+ * Errors: INVALID_ARGUMENT (an index out of range is named), TOO_LARGE, OUT_OF_MEMORY. Since 0.1.
+ * */
 DIF_API dif_status dif_mesh_from_arrays(const double positions[], int64_t vertices,
                                         const uint32_t indices[], int64_t triangles,
                                         dif_mesh** mesh);
@@ -351,10 +352,10 @@ enum {
   DIF_SOURCE_LEAST_SQUARES = 4 /* ELVIRA, LVIRA, and where an open side cuts stencils short */
 };
 
-/* Unit normals, out of the material, and offsets of the planes of `count` cells, by options->normals,
- * sides and purity_tolerance. cells: 3 count indices, in [0, dims). normals: 3 count numbers;
- * offsets, sources: count. `normals`, `offsets` and `sources` may be NULL. The field is read only
- * near these cells; NaN there count as some fraction.
+/* Unit normals, out of the material, and offsets of the planes of `count` cells, by
+ * options->normals, sides and purity_tolerance. cells: 3 count indices, in [0, dims). normals: 3
+ * count numbers; offsets, sources: count. `normals`, `offsets` and `sources` may be NULL. The field
+ * is read only near these cells; NaN there count as some fraction.
  * Errors: as dif_reconstruct(). Cost: 0.05 to 0.4 microseconds per cell, 7 to 9 by ELVIRA,
  * 1 to 2 by LVIRA. Since 0.1. */
 DIF_API dif_status dif_cell_planes(const dif_field* field, const dif_options* options,
@@ -362,7 +363,8 @@ DIF_API dif_status dif_cell_planes(const dif_field* field, const dif_options* op
                                    double offsets[], int32_t sources[]);
 
 /* Arrays of a flow solver, one element per cell: that of cell (i, j, k) is at i strides[0] +
- * j strides[1] + k strides[2] from the pointer. Pointers may be NULL where a result is not wanted. */
+ * j strides[1] + k strides[2] from the pointer. Pointers may be NULL where a result is not wanted.
+ * */
 typedef struct dif_plane_arrays {
   uint64_t struct_size;
   double* normal_x; /* element of cell (0, 0, 0) */
@@ -436,16 +438,16 @@ typedef struct dif_function_report {
 /* Prepares an output struct. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
 DIF_API dif_status dif_function_report_init(dif_function_report* report, uint64_t struct_size);
 
-/* Volume fractions of {f < 0}, by quadrature; see fractions_from_function.hpp for what is assumed of
- * f. `fractions` has one element per cell of the grid, x fastest. `report` may be NULL.
+/* Volume fractions of {f < 0}, by quadrature; see fractions_from_function.hpp for what is assumed
+ * of f. `fractions` has one element per cell of the grid, x fastest. `report` may be NULL.
  * Errors: INVALID_ARGUMENT, INVALID_GRID, INVALID_VALUE (f is NaN or infinite; the point is named),
  * STRUCT, TOO_LARGE, OUT_OF_MEMORY, CANCELLED. Since 0.1. */
 DIF_API dif_status dif_fractions_from_function(const dif_grid* grid, dif_function f, void* user,
                                                const dif_function_options* options,
                                                dif_function_report* report, double fractions[]);
 
-/* What to do where parts of a mesh overlap: where its winding number, which counts how often a point
- * is inside, exceeds 1. */
+/* What to do where parts of a mesh overlap: where its winding number, which counts how often a
+ * point is inside, exceeds 1. */
 enum {
   DIF_OVERLAPS_DEFAULT = 0, /* UNION */
   DIF_OVERLAPS_UNION = 1,   /* the share of a cell where the winding number is 1 or more */
@@ -499,10 +501,11 @@ typedef struct dif_triangle_report {
 /* Prepares an output struct. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
 DIF_API dif_status dif_triangle_report_init(dif_triangle_report* report, uint64_t struct_size);
 
-/* Exact volume fractions of the inside of a closed mesh. `fractions` has one element per cell of the
- * grid, x fastest. `report` may be NULL.
+/* Exact volume fractions of the inside of a closed mesh. `fractions` has one element per cell of
+ * the grid, x fastest. `report` may be NULL.
  * Errors: INVALID_ARGUMENT (also an open mesh, mixed orientation, a mesh or part inside out; edge,
- * triangles, column or cell are named), INVALID_GRID, STRUCT, TOO_LARGE, OUT_OF_MEMORY, CANCELLED. Since 0.1. */
+ * triangles, column or cell are named), INVALID_GRID, STRUCT, TOO_LARGE, OUT_OF_MEMORY, CANCELLED.
+ * Since 0.1. */
 DIF_API dif_status dif_fractions_from_mesh(const dif_grid* grid, const dif_mesh* mesh,
                                            const dif_triangle_options* options,
                                            dif_triangle_report* report, double fractions[]);
@@ -556,21 +559,23 @@ DIF_API dif_status dif_fractions_from_shape(const dif_grid* grid, const dif_shap
                                             const dif_function_options* options,
                                             dif_function_report* report, double fractions[]);
 
-/* Values of scanners and segmentations, which become fractions here. They are described by a dif_field
- * whose type may also be DIF_INT8, DIF_INT16, DIF_INT32, DIF_UINT32, DIF_INT64 or DIF_UINT64; its origin
- * and spacing are not looked at. What comes out has one element per cell, x fastest. */
+/* Values of scanners and segmentations, which become fractions here. They are described by a
+ * dif_field whose type may also be DIF_INT8, DIF_INT16, DIF_INT32, DIF_UINT32, DIF_INT64 or
+ * DIF_UINT64; its origin and spacing are not looked at. What comes out has one element per cell, x
+ * fastest. */
 enum { DIF_INT8 = 14, DIF_INT16 = 15, DIF_UINT64 = 16 };
 
-/* (value - empty) / (full - empty), values beyond counting as 0 or 1; `full` may be the smaller one. NaN
- * stays NaN. Errors: INVALID_ARGUMENT (the two are equal or not finite), INVALID_GRID, STRUCT. Since 0.1. */
+/* (value - empty) / (full - empty), values beyond counting as 0 or 1; `full` may be the smaller
+ * one. NaN stays NaN. Errors: INVALID_ARGUMENT (the two are equal or not finite), INVALID_GRID,
+ * STRUCT. Since 0.1. */
 DIF_API dif_status dif_fractions_from_values(const dif_field* values, double empty, double full,
                                              double fractions[]);
 /* 255, that is 1, where a value is one of the labels, else 0. Exact for integers of all sizes.
  * Errors: INVALID_ARGUMENT (also for no labels), INVALID_GRID, STRUCT, OUT_OF_MEMORY. Since 0.1. */
 DIF_API dif_status dif_fractions_from_labels(const dif_field* values, int64_t count,
                                              const int64_t labels[], uint8_t fractions[]);
-/* The lowest and the highest value; NaN takes no part, and both are NaN where there is nothing else.
- * Errors: INVALID_ARGUMENT, INVALID_GRID, STRUCT. Since 0.1. */
+/* The lowest and the highest value; NaN takes no part, and both are NaN where there is nothing
+ * else. Errors: INVALID_ARGUMENT, INVALID_GRID, STRUCT. Since 0.1. */
 DIF_API dif_status dif_value_extremes(const dif_field* values, double* lowest, double* highest);
 
 typedef struct dif_mollify_options {
@@ -588,8 +593,8 @@ DIF_API dif_status dif_mollify_options_init(dif_mollify_options* options, uint64
 
 /* Convolution of a field with a compact kernel that keeps the sum, unless sides are EMPTY or FULL.
  * `values` has one element per cell, x fastest. Origin and spacing are not looked at.
- * Errors: INVALID_ARGUMENT, INVALID_GRID, INVALID_VALUE (the cell that is NaN or infinite is named),
- * STRUCT, TOO_LARGE, OUT_OF_MEMORY, CANCELLED. Since 0.1. */
+ * Errors: INVALID_ARGUMENT, INVALID_GRID, INVALID_VALUE (the cell that is NaN or infinite is
+ * named), STRUCT, TOO_LARGE, OUT_OF_MEMORY, CANCELLED. Since 0.1. */
 DIF_API dif_status dif_mollify(const dif_field* field, const dif_mollify_options* options,
                                double values[]);
 
@@ -667,17 +672,17 @@ DIF_API dif_status dif_distance_init(dif_distance* distance, uint64_t struct_siz
 
 /* Distances of a mesh from a shape, which may be given by its signed distance. `function` is called
  * from several threads at once unless `threads` is 1.
- * Errors: INVALID_ARGUMENT (also for an empty mesh), INVALID_VALUE (a distance that is NaN), STRUCT,
- * OUT_OF_MEMORY, CANCELLED, UNSUPPORTED. Since 0.1. */
+ * Errors: INVALID_ARGUMENT (also for an empty mesh), INVALID_VALUE (a distance that is NaN),
+ * STRUCT, OUT_OF_MEMORY, CANCELLED, UNSUPPORTED. Since 0.1. */
 DIF_API dif_status dif_distance_to_shape(const dif_mesh* mesh, const dif_shape* shape,
                                          const dif_distance_options* options,
                                          dif_distance* distance);
 DIF_API dif_status dif_distance_to_function(const dif_mesh* mesh, dif_function function, void* user,
                                             const dif_distance_options* options,
                                             dif_distance* distance);
-/* Distances of a mesh from a reference mesh, and back: `back` may be NULL, and then is not measured.
- * Their larger maximum bounds the Hausdorff distance from below, and with the larger reach added from
- * above. Errors: likewise, and TOO_LARGE. Since 0.1. */
+/* Distances of a mesh from a reference mesh, and back: `back` may be NULL, and then is not
+ * measured. Their larger maximum bounds the Hausdorff distance from below, and with the larger
+ * reach added from above. Errors: likewise, and TOO_LARGE. Since 0.1. */
 DIF_API dif_status dif_distance_to_mesh(const dif_mesh* mesh, const dif_mesh* reference,
                                         const dif_distance_options* options, dif_distance* distance,
                                         dif_distance* back);
@@ -693,9 +698,9 @@ typedef struct dif_curvature_options {
 /* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
 DIF_API dif_status dif_curvature_options_init(dif_curvature_options* options, uint64_t struct_size);
 
-/* Curvatures at the vertices of a mesh, by parabolic patches fitted to their neighbours: the mean of
- * the principal ones, their product (Gaussian), the larger and the smaller. One number per vertex
- * each, NaN where too few neighbours determine no patch; `mean`, `gaussian`, `largest` and
+/* Curvatures at the vertices of a mesh, by parabolic patches fitted to their neighbours: the mean
+ * of the principal ones, their product (Gaussian), the larger and the smaller. One number per
+ * vertex each, NaN where too few neighbours determine no patch; `mean`, `gaussian`, `largest` and
  * `smallest` may be NULL. In 1 / unit, the Gaussian squared; positive where bodies are convex: 1/R
  * for a ball.
  * Errors: INVALID_ARGUMENT (a position that is not finite is named), STRUCT, OUT_OF_MEMORY,
@@ -743,17 +748,18 @@ DIF_API dif_status dif_smoothing_options_init(dif_smoothing_options* options, ui
  * that has normals, those of the smooth surface, but no scalars or report, which no longer hold.
  * CONSTRAINED needs a closed mesh with edge_ids and the grid of its reconstruction; `grid` may be
  * NULL for the others, which do not look at it.
- * Errors: INVALID_ARGUMENT, INVALID_GRID, TOO_LARGE, STRUCT, OUT_OF_MEMORY, CANCELLED. Since 0.1. */
+ * Errors: INVALID_ARGUMENT, INVALID_GRID, TOO_LARGE, STRUCT, OUT_OF_MEMORY, CANCELLED. Since 0.1.
+ * */
 DIF_API dif_status dif_mesh_smooth(const dif_mesh* mesh, const dif_grid* grid,
                                    const dif_smoothing_options* options, dif_mesh** smooth);
 
 /* ============================== 7. Files ====================================================== */
 
 /* Paths are those of the system, on POSIX any bytes but 0. Files appear under their names when they
- * are complete and not before; on failure nothing is left. Files that a file names, the data of .nhdr and
- * the buffers of .gltf, must be named relative to its folder and lie in it or below, symbolic links
- * resolved, unless `outside_files` is set: a file from a stranger must not read others. All functions return UNSUPPORTED in a
- * build without files. */
+ * are complete and not before; on failure nothing is left. Files that a file names, the data of
+ * .nhdr and the buffers of .gltf, must be named relative to its folder and lie in it or below,
+ * symbolic links resolved, unless `outside_files` is set: a file from a stranger must not read
+ * others. All functions return UNSUPPORTED in a build without files. */
 
 /* How Draco orders a mesh. */
 enum {
@@ -775,8 +781,8 @@ enum {
   DIF_UP_Z = 2        /* a root node turns z up to y up; the coordinates below it are as they are */
 };
 
-/* "glTF" is .glb and .gltf; "Draco" is .drc, and glTF with `draco`. What a format cannot honour must
- * be left as it is. */
+/* "glTF" is .glb and .gltf; "Draco" is .drc, and glTF with `draco`. What a format cannot honour
+ * must be left as it is. */
 typedef struct dif_mesh_write_options {
   uint64_t struct_size;
   const char* format;    /* an extension, such as "ply"; NULL, the default: that of the path */
@@ -806,11 +812,11 @@ typedef struct dif_mesh_write_options {
 /* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
 DIF_API dif_status dif_mesh_write_options_init(dif_mesh_write_options* options,
                                                uint64_t struct_size);
-/* What became of a mesh in a file. Counts are those of the file: STL has three vertices per triangle,
- * the parts of a split glTF repeat some, and Draco adds some where the mesh is not manifold.
- * `warning` says that triangles of STL collapse, or that its coordinates are off by more than a
- * hundredth of the mean edge: one English sentence in UTF-8, at most 1023 bytes, valid until the next
- * dif_mesh_write() on this thread; NULL if there is nothing to tell. */
+/* What became of a mesh in a file. Counts are those of the file: STL has three vertices per
+ * triangle, the parts of a split glTF repeat some, and Draco adds some where the mesh is not
+ * manifold. `warning` says that triangles of STL collapse, or that its coordinates are off by more
+ * than a hundredth of the mean edge: one English sentence in UTF-8, at most 1023 bytes, valid until
+ * the next dif_mesh_write() on this thread; NULL if there is nothing to tell. */
 typedef struct dif_mesh_write_report {
   uint64_t struct_size;
   int64_t bytes; /* size of the file */
@@ -827,17 +833,18 @@ typedef struct dif_mesh_write_report {
 
 /* Prepares an output struct. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
 DIF_API dif_status dif_mesh_write_report_init(dif_mesh_write_report* report, uint64_t struct_size);
-/* Writes .ply (float64), .obj, .off, .stl (float32), .glb, .gltf (glTF, float32 about the centre) or
- * .drc (Draco), told by the extension or the options. `report` may be NULL; one that cannot be
- * filled is refused before anything is written. Errors: INVALID_ARGUMENT, INVALID_VALUE (a position or scalar
- * that is not finite; for glTF and Draco a mesh without triangles), TOO_LARGE, FILE_WRITE, STRUCT,
- * OUT_OF_MEMORY, UNSUPPORTED (DIF_PART_GLTF or DIF_PART_DRACO is not there). Since 0.1. */
+/* Writes .ply (float64), .obj, .off, .stl (float32), .glb, .gltf (glTF, float32 about the centre)
+ * or .drc (Draco), told by the extension or the options. `report` may be NULL; one that cannot be
+ * filled is refused before anything is written. Errors: INVALID_ARGUMENT, INVALID_VALUE (a position
+ * or scalar that is not finite; for glTF and Draco a mesh without triangles), TOO_LARGE,
+ * FILE_WRITE, STRUCT, OUT_OF_MEMORY, UNSUPPORTED (DIF_PART_GLTF or DIF_PART_DRACO is not there).
+ * Since 0.1. */
 DIF_API dif_status dif_mesh_write(const dif_mesh* mesh, const char* path,
                                   const dif_mesh_write_options* options,
                                   dif_mesh_write_report* report);
 /* Reads .ply, .obj, .off, .stl, .glb, .gltf or .drc, told by the extension.
- * Errors: FILE_MISSING, FILE_FORMAT, TOO_LARGE, OUT_OF_MEMORY, UNSUPPORTED (as above; FILE_FORMAT for
- * compressed glTF). Since 0.1. */
+ * Errors: FILE_MISSING, FILE_FORMAT, TOO_LARGE, OUT_OF_MEMORY, UNSUPPORTED (as above; FILE_FORMAT
+ * for compressed glTF). Since 0.1. */
 DIF_API dif_status dif_mesh_read(const char* path, dif_mesh** mesh);
 /* Borrowed: warning number `index`, from 0, of the reading or of dif_reconstruct(); NULL from their
  * count on. It tells what was left out of the file or taken otherwise than it says, or that values
@@ -874,7 +881,8 @@ typedef struct dif_raw_layout {
 DIF_API dif_status dif_raw_layout_init(dif_raw_layout* layout, uint64_t struct_size);
 /* Reads .npy, .nrrd or .nhdr, told by the extension, or with a layout a raw file; `layout` may be
  * NULL.
- * Errors: INVALID_ARGUMENT, FILE_MISSING, FILE_FORMAT, TOO_LARGE, STRUCT, OUT_OF_MEMORY. Since 0.1. */
+ * Errors: INVALID_ARGUMENT, FILE_MISSING, FILE_FORMAT, TOO_LARGE, STRUCT, OUT_OF_MEMORY. Since 0.1.
+ * */
 DIF_API dif_status dif_field_read(const char* path, const dif_raw_layout* layout,
                                   dif_field_file** file);
 
@@ -901,12 +909,13 @@ DIF_API dif_status dif_field_read_options_init(dif_field_read_options* options,
 DIF_API dif_status dif_field_read_with(const char* path, const dif_raw_layout* layout,
                                        const dif_field_read_options* options,
                                        dif_field_file** file);
-/* Borrowed: warning number `index`, from 0, of the reading; NULL from their count on. It tells what a
- * user must know though it is no error, in one English sentence of at most 1000 bytes of UTF-8.
+/* Borrowed: warning number `index`, from 0, of the reading; NULL from their count on. It tells what
+ * a user must know though it is no error, in one English sentence of at most 1000 bytes of UTF-8.
  * Errors: INVALID_ARGUMENT. Since 0.1. */
 DIF_API dif_status dif_field_file_warning(const dif_field_file* file, int64_t index,
                                           const char** text);
-/* The type of the elements in the file, DIF_INT16 for instance. Errors: INVALID_ARGUMENT. Since 0.1. */
+/* The type of the elements in the file, DIF_INT16 for instance. Errors: INVALID_ARGUMENT. Since
+   0.1. */
 DIF_API dif_status dif_field_file_type(const dif_field_file* file, int32_t* type);
 /* Frees the field; NULL is fine. Since 0.1. */
 DIF_API void dif_field_file_free(dif_field_file* file);
@@ -950,15 +959,15 @@ typedef struct dif_block {
 
 /* Prepares a block of 0 cells. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
 DIF_API dif_status dif_block_init(dif_block* block, uint64_t struct_size);
-/* As dif_reconstruct(), of one block. `grid` is the whole grid; origin and spacing of `field` are not
- * looked at. The mesh has edge_ids. Since 0.1. */
+/* As dif_reconstruct(), of one block. `grid` is the whole grid; origin and spacing of `field` are
+ * not looked at. The mesh has edge_ids. Since 0.1. */
 DIF_API dif_status dif_reconstruct_block(const dif_field* field, const dif_block* block,
                                          const dif_grid* grid, const dif_options* options,
                                          dif_mesh** mesh);
 /* Joins meshes of disjoint blocks by edge ids: those of blocks that cover the grid give the mesh of
- * the whole field, bit for bit. Errors: INVALID_ARGUMENT (also for blocks that are not disjoint, such
- * as one given twice: both meshes have triangles between the same cells), TOO_LARGE, OUT_OF_MEMORY.
- * Since 0.1. */
+ * the whole field, bit for bit. Errors: INVALID_ARGUMENT (also for blocks that are not disjoint,
+ * such as one given twice: both meshes have triangles between the same cells), TOO_LARGE,
+ * OUT_OF_MEMORY. Since 0.1. */
 DIF_API dif_status dif_mesh_weld(const dif_mesh* const meshes[], int64_t count,
                                  const dif_grid* grid, dif_mesh** mesh);
 

@@ -22,8 +22,8 @@ struct CellPlane {
 /// \throw Error as reconstruct(); invalid_argument where a cell lies outside the grid or the sizes
 ///   differ. Values outside [0,1] are clamped; the field is not validated, and NaN beside a cell
 ///   count as some fraction, NaN in it as 0.
-/// Cost: some 0.05-0.1 µs per cell where x runs through memory, 0.2-0.4 µs else, 7 to 9 µs with elvira, 1 to 2 µs with
-/// lvira; on options.threads threads.
+/// Cost: some 0.05-0.1 µs per cell where x runs through memory, 0.2-0.4 µs else, 7 to 9 µs with
+/// elvira, 1 to 2 µs with lvira; on options.threads threads.
 /// Thread safety: concurrent calls are safe.
 /// Source: MYC: Aulisa et al., J. Comput. Phys. 225 (2007) 2301; heights: docs/method.md.
 void cell_planes(const FieldView& field, const Grid& grid, std::span<const Index3> cells,

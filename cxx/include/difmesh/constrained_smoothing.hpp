@@ -46,10 +46,10 @@ struct ConstrainedSmoothing {
 /// \throw Error invalid_argument for options out of range, a mesh without edge_ids or with others
 ///   than the grid has, a position off its edge (the vertex is named), an open mesh, and what
 ///   fractions_from_mesh() does not take; invalid_grid; too_large; cancelled
-/// Cost: one to ten measurements, as the tolerance demands, and 2 µs per vertex in each step. Memory: two fields of float64
-/// and some 200 bytes per vertex. Thread safety: concurrent calls are safe.
-/// Source: in the spirit of smoothing under the constraint that the field is met: S. F. F. Gibson,
-/// Constrained elastic surface nets, MICCAI 1998.
+/// Cost: one to ten measurements, as the tolerance demands, and 2 µs per vertex in each step.
+/// Memory: two fields of float64 and some 200 bytes per vertex. Thread safety: concurrent calls are
+/// safe. Source: in the spirit of smoothing under the constraint that the field is met: S. F. F.
+/// Gibson, Constrained elastic surface nets, MICCAI 1998.
 [[nodiscard]] ConstrainedSmoothing smooth_within_fractions(
     const Mesh& mesh, const Grid& grid, const ConstrainedSmoothingOptions& options = {});
 

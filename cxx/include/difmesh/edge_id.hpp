@@ -10,8 +10,8 @@
 
 namespace difmesh {
 
-/// A dual edge of a whole grid: from `lower` to the next node along `axis`. Nodes are cell centres, by
-/// the index of their cell; -1 and n are the nodes beyond or on the sides of the domain.
+/// A dual edge of a whole grid: from `lower` to the next node along `axis`. Nodes are cell centres,
+/// by the index of their cell; -1 and n are the nodes beyond or on the sides of the domain.
 struct DualEdgeName {
   Index3 lower{0, 0, 0};
   int axis = 0;  ///< 0, 1, 2 for x, y, z
@@ -19,8 +19,8 @@ struct DualEdgeName {
   bool operator==(const DualEdgeName&) const = default;
 };
 
-/// 3 (((k+1)(ny+2) + (j+1))(nx+2) + (i+1)) + axis. Ids ascend with k, then j, then i, then the axis,
-/// so that slabs in z have ids one after another.
+/// 3 (((k+1)(ny+2) + (j+1))(nx+2) + (i+1)) + axis. Ids ascend with k, then j, then i, then the
+/// axis, so that slabs in z have ids one after another.
 /// \param dims of the whole grid, each at least 1 and such that validate() takes the grid
 /// \pre lower is in [-1, n] along each axis, and in [-1, n - 1] along the edge's own
 /// Cost: nanoseconds. Thread safety: pure.
@@ -56,8 +56,8 @@ struct DualEdgeName {
   return 3 * nodes;
 }
 
-/// True for the one block that owns an edge, of blocks that cover the grid without overlap: the block
-/// that holds the cell at the lower node, or the cell nearest to it where the node is none.
+/// True for the one block that owns an edge, of blocks that cover the grid without overlap: the
+/// block that holds the cell at the lower node, or the cell nearest to it where the node is none.
 /// Reconstructions of neighbouring blocks have vertices in common; each is owned once.
 [[nodiscard]] constexpr bool owns(const Block& block, const Index3& dims,
                                   const DualEdgeName& edge) noexcept {

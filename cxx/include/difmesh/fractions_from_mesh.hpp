@@ -24,8 +24,8 @@ struct FractionsFromMeshOptions {
   bool flip = false;
   /// Demand that every edge is run along as often one way as the other. Edges match by the
   /// positions of their ends, so triangles need not share vertices. Off: a mesh with T-junctions or
-  /// tiny cracks passes too, and only the columns' sums show whether it is closed; they may not show
-  /// a hole that is seen edge-on along x.
+  /// tiny cracks passes too, and only the columns' sums show whether it is closed; they may not
+  /// show a hole that is seen edge-on along x.
   bool check_edges = true;
   Overlaps overlaps = Overlaps::unite;
   /// A column's sum may miss an integer by this before the call fails, and with Overlaps::refuse a
@@ -85,9 +85,9 @@ struct FractionsFromMesh {
 ///   and reported whatever the grid, also within a cell.
 /// - Pockets inside out (w < 0) of up to a thousandth of the volume in the grid are outside.
 /// - Cells in which surfaces cross are cut up, the finer the more triangles they hold: exact to
-///   1e-12, or 1e-15 for each piece in the cell if that is more, and for what is `undecided`: usually
-///   nothing, but twenty surfaces that cross within a ten-thousandth of a cell, or hundreds farther
-///   apart, may need more effort than is granted for each of its pieces.
+///   1e-12, or 1e-15 for each piece in the cell if that is more, and for what is `undecided`:
+///   usually nothing, but twenty surfaces that cross within a ten-thousandth of a cell, or hundreds
+///   farther apart, may need more effort than is granted for each of its pieces.
 /// - The grid cuts off what lies outside it. A mesh that surrounds the grid gives 1 everywhere, one
 ///   beside it 0.
 /// - Triangles, edges and vertices may lie exactly on faces of cells.
@@ -101,9 +101,9 @@ struct FractionsFromMesh {
 /// \throw Error invalid_grid; too_large for 2^32 vertices or triangles; cancelled; invalid_argument
 ///   for options out of range, an empty mesh, a vertex not finite or too far away, an index out of
 ///   range, an open mesh (an edge and its triangle are named, and where the grid sees the hole
-///   along x the first column and its gap; without check_edges the latter alone), mixed orientation (two
-///   triangles are named), a mesh that is inside out (see `flip`), or parts that are (a cell is
-///   named) or that overlap (Overlaps::refuse; a cell is named) or may do so by more than the
+///   along x the first column and its gap; without check_edges the latter alone), mixed orientation
+///   (two triangles are named), a mesh that is inside out (see `flip`), or parts that are (a cell
+///   is named) or that overlap (Overlaps::refuse; a cell is named) or may do so by more than the
 ///   tolerance, being undecided.
 /// Cost: O(pieces + cells), 50 to 150 ns per piece and up to 3 ns per cell on one core; 0.01 to 0.2
 /// ms per piece in cells in which surfaces cross, and some 10 at most. Memory beyond the field:

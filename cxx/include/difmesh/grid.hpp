@@ -24,9 +24,9 @@ struct Grid {
 };
 
 /// Checks a grid before anything is allocated from it.
-/// \throw Error invalid_grid if a dim is < 1, the origin is not finite, a spacing is outside its range
-///   or so small against the origin that neighbouring nodes would coincide in float64 (< 2^-40
-///   relative); too_large if three ids per node of the grid would overflow 63 bits.
+/// \throw Error invalid_grid if a dim is < 1, the origin is not finite, a spacing is outside its
+///   range or so small against the origin that neighbouring nodes would coincide in float64 (<
+///   2^-40 relative); too_large if three ids per node of the grid would overflow 63 bits.
 void validate(const Grid& grid);
 
 }  // namespace difmesh

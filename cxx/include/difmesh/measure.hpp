@@ -12,8 +12,8 @@ namespace difmesh {
 
 /// Facts about a triangle mesh, from its arrays alone. Vertices are told apart by index, never by
 /// position,
-/// but for has_volume. A triangle with an index twice has no area and no part in the topology: edges,
-/// components, fans, vertices in use and the Euler number are those of the other triangles.
+/// but for has_volume. A triangle with an index twice has no area and no part in the topology:
+/// edges, components, fans, vertices in use and the Euler number are those of the other triangles.
 struct Measure {
   std::int64_t vertices = 0;  ///< in use or not
   std::int64_t edges = 0;     ///< undirected

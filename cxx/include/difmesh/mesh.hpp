@@ -27,8 +27,8 @@ struct Mesh {
   Array<Triangle> triangles;  ///< three indices into positions each
   Array<Vec3> normals;        ///< empty, or one unit vector per vertex, out of the material
   /// Empty, or one per vertex: the name of its dual edge, strictly ascending over the vertices.
-  /// edge_id.hpp makes these names and takes them apart: they hold the edge's lower node and axis, in
-  /// the indices of the whole grid.
+  /// edge_id.hpp makes these names and takes them apart: they hold the edge's lower node and axis,
+  /// in the indices of the whole grid.
   Array<std::uint64_t> edge_ids;
   std::vector<VertexScalar> scalars = {};  ///< of different names
 };

@@ -23,9 +23,9 @@ struct MollifyOptions {
 /// - r counts cells, along each axis alike: with different spacings the kernel's support is an
 ///   ellipsoid of `radius` spacings along each axis. Radius 2, as in E19 (options.hpp), reaches
 ///   the 3 x 3 x 3 cells.
-/// - Kept: constants, to the bit; fields that are linear in the cells' indices, but for cells within
-///   a radius of a side that is not periodic; the sum over all cells, up to rounding, unless a side
-///   is `empty` or `full`, through which material leaves or enters; [0,1].
+/// - Kept: constants, to the bit; fields that are linear in the cells' indices, but for cells
+///   within a radius of a side that is not periodic; the sum over all cells, up to rounding, unless
+///   a side is `empty` or `full`, through which material leaves or enters; [0,1].
 /// - The kernel is the same along all axes and both ways.
 /// - Values are taken as they are: neither clamped nor held against a bound.
 /// A surface of radius R with sharp fractions moves inwards by 0.32 Δx²/R at radius 2.

@@ -24,12 +24,12 @@ struct Reconstruction {
 /// on each crossed dual edge is put where options.placement says. The result is edge- and
 /// vertex-manifold and free of self-intersections for every input, and bit-identical for any number
 /// of threads.
-/// - `open` sides: the dual grid has more nodes on the domain faces, edges and corners, and the mesh
-///   ends there. With `plic` it follows the planes of the last cells.
+/// - `open` sides: the dual grid has more nodes on the domain faces, edges and corners, and the
+///   mesh ends there. With `plic` it follows the planes of the last cells.
 /// - `periodic` axes: the mesh spans one period, from the first cell centre to its image; boundary
 ///   loops are equal but for one period, added to the coordinate.
-/// - `mirror` sides: the mesh ends there too, at right angles. It ends nowhere else, but for edges of
-///   the domain where an `empty` side meets a `full` one.
+/// - `mirror` sides: the mesh ends there too, at right angles. It ends nowhere else, but for edges
+///   of the domain where an `empty` side meets a `full` one.
 /// \param field cells in memory; dims must equal grid.dims
 /// \throw Error invalid_argument (field or options), invalid_grid, invalid_value (first bad cell in
 ///   the order z, y, x is named), too_large, cancelled; OutOfMemory, early where that is known

@@ -23,8 +23,8 @@ namespace difmesh {
 
 /// What happens to vertices on boundaries, that is on edges with other than two triangles.
 enum class BoundaryVertices : std::uint8_t {
-  stay,  ///< where they are
-  along,  ///< see only their neighbours along the boundary: loops stay in their planes, corners round
+  stay,   ///< where they are
+  along,  ///< see only their neighbours along the boundary: loops stay in their planes
 };
 
 struct LaplacianOptions {

@@ -44,7 +44,8 @@ namespace difmesh::detail {
   return (std::uint64_t{1} << bit) - 1;
 }
 
-/// Rows of bits along x over a box of nodes. In a complete row the bits of nodes that do not exist are zero.
+/// Rows of bits along x over a box of nodes. In a complete row the bits of nodes that do not exist
+/// are zero.
 class NodeBits {
  public:
   NodeBits() = default;
@@ -141,13 +142,14 @@ class NodeBits {
   std::vector<Kind> kinds_;  // by row
 };
 
-/// Rows that a thread takes at once: few enough for many threads, and enough to be worth it where most rows are
-/// bare.
+/// Rows that a thread takes at once: few enough for many threads, and enough to be worth it where
+/// most rows are bare.
 [[nodiscard]] inline std::int64_t rows_per_portion(const NodeBits& nodes) {
   return std::clamp<std::int64_t>(nodes.rows() / 512, 16, 4096);
 }
 
-/// True if no edge that starts in a row is crossed, as far as that is known without a look at its bits.
+/// True if no edge that starts in a row is crossed, as far as that is known without a look at its
+/// bits.
 [[nodiscard]] inline bool is_bare(const NodeBits& nodes, std::int64_t j, std::int64_t k) {
   const std::int64_t row = nodes.row_index(j, k);
   return nodes.are_alike(row, row) &&

@@ -1,8 +1,8 @@
 #pragma once
-// Eight doubles at a time, or sixteen, for the kernels, and the same operations on one double, so that a formula
-// written once as a template serves both. Every operation acts on each lane as IEEE 754 has it, so
-// a lane's result depends neither on its neighbours nor on the instruction set, and equals that of
-// the same formula on one double.
+// Eight doubles at a time, or sixteen, for the kernels, and the same operations on one double, so
+// that a formula written once as a template serves both. Every operation acts on each lane as IEEE
+// 754 has it, so a lane's result depends neither on its neighbours nor on the instruction set, and
+// equals that of the same formula on one double.
 //
 // All of it lies in a namespace of its own for each instruction set: the linker must never take a
 // function that was compiled for one machine for another. For the same reason nothing of the
@@ -23,8 +23,8 @@ namespace difmesh::detail::DIFMESH_INSTRUCTIONS {
 
 inline constexpr int kLanes = 8;
 
-// What the machine computes with at once. Compilers make poor work of vectors wider than that, so eight lanes are as
-// many parts as it takes.
+// What the machine computes with at once. Compilers make poor work of vectors wider than that, so
+// eight lanes are as many parts as it takes.
 #if defined(__AVX512F__)
 inline constexpr int kPartLanes = 8;
 #elif defined(__AVX__)
@@ -60,8 +60,8 @@ using Lanes = LanesOf<kParts>;
 using LaneMask = MasksOf<kParts>;
 using LaneBits = BitLanesOf<kParts>;
 
-/// As many lanes as a chain of operations is best taken with: long ones leave machines with wide vectors half idle, unless
-/// there are two that do not wait for each other.
+/// As many lanes as a chain of operations is best taken with: long ones leave machines with wide
+/// vectors half idle, unless there are two that do not wait for each other.
 #if defined(__AVX512F__)
 using Chains = LanesOf<2 * kParts>;
 #else

@@ -12,8 +12,8 @@
 
 namespace difmesh::detail {
 
-/// Coordinates in spacings are less than this, in absolute value. Rounding grows with the coordinate:
-/// here it is 2^-20 of a cell, and indices of cells are safe in 64 bits.
+/// Coordinates in spacings are less than this, in absolute value. Rounding grows with the
+/// coordinate: here it is 2^-20 of a cell, and indices of cells are safe in 64 bits.
 inline constexpr double kGreatestCoordinate = 0x1p32;
 
 struct GridMesh {
@@ -34,7 +34,8 @@ inline constexpr double kCheckWeight = 0.12;
 
 /// Checks that a mesh is finite, within 2^32 spacings of the grid's origin, has its indices in
 /// range, is closed and right way out, and moves it to grid units. \throw Error invalid_argument,
-/// naming the vertex or the triangle; edges that do not match are told in the result. \pre not empty
+/// naming the vertex or the triangle; edges that do not match are told in the result. \pre not
+/// empty
 [[nodiscard]] GridMesh checked_mesh(const Grid& grid, std::span<const Vec3> positions,
                                     std::span<const Triangle> triangles, const MeshRules& rules,
                                     Phases& phases);

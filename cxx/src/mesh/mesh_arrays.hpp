@@ -9,8 +9,8 @@
 namespace difmesh::detail {
 
 /// \param caller starts the message
-/// \throw Error too_large beyond 2^32 - 1 vertices; invalid_argument naming the first position that is not finite, or else the first
-///   triangle with an index out of range
+/// \throw Error too_large beyond 2^32 - 1 vertices; invalid_argument naming the first position that
+///   is not finite, or else the first triangle with an index out of range
 void check_mesh_arrays(const std::string& caller, std::span<const Vec3> positions,
                        std::span<const Triangle> triangles);
 

@@ -10,9 +10,9 @@
 
 namespace difmesh::detail {
 
-/// The neighbours of each vertex, each once: first those along the boundary, that is over edges that
-/// have other than two triangles, then the others, both ascending. Triangles with an index twice
-/// have no part.
+/// The neighbours of each vertex, each once: first those along the boundary, that is over edges
+/// that have other than two triangles, then the others, both ascending. Triangles with an index
+/// twice have no part.
 class VertexNeighbours {
  public:
   /// \pre indices in range, at most 2^32 - 1 vertices

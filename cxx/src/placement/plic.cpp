@@ -1,5 +1,5 @@
-// E19: the half-full window. Edges are solved in batches by kernels, those at the sides of the domain
-// one by one: see surface/window_queue.hpp and planes/window.hpp.
+// E19: the half-full window. Edges are solved in batches by kernels, those at the sides of the
+// domain one by one: see surface/window_queue.hpp and planes/window.hpp.
 
 #include "placement/placement.hpp"
 

@@ -1,5 +1,6 @@
 #pragma once
-// Columns of heights that run across x, eight neighbours at a time: cells of a row share most of theirs.
+// Columns of heights that run across x, eight neighbours at a time: cells of a row share most of
+// theirs.
 
 #include "planes/height_columns.hpp"
 
@@ -64,7 +65,8 @@ struct HeightBlock {
   }
 };
 
-/// `first` is the middle cell of the middle row at place 0; `along` leads from the material's end to the other.
+/// `first` is the middle cell of the middle row at place 0; `along` leads from the material's end
+/// to the other.
 template <class T>
 [[gnu::always_inline]] inline void find_height_block(const PlaneTask<T>& task, const T* first,
                                                      std::int64_t along, std::int64_t across,

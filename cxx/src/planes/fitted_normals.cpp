@@ -90,8 +90,8 @@ double column(const Surroundings& around, std::size_t axis, Index3 foot) {
   return sum;
 }
 
-/// Differences of the columns beside the centre's, in units of cells: backward, centred, forward, as
-/// far as there are columns.
+/// Differences of the columns beside the centre's, in units of cells: backward, centred, forward,
+/// as far as there are columns.
 struct Slopes {
   std::array<double, 3> value{};
   std::size_t count = 0;

@@ -1,5 +1,6 @@
 #pragma once
-// The columns of heights around a cell, for the kernels: see lanes.hpp about what may be called here.
+// The columns of heights around a cell, for the kernels: see lanes.hpp about what may be called
+// here.
 
 #include "lanes/lanes.hpp"
 #include "planes/kernels.hpp"
@@ -20,8 +21,8 @@ typedef double Doubles8 __attribute__((vector_size(64)));
 typedef float Floats16 __attribute__((vector_size(64)));
 typedef std::int32_t Ints16 __attribute__((vector_size(64)));
 
-// Vectors of elements, and integers that are ordered as they are where none is negative. Elements that are
-// integers are widened.
+// Vectors of elements, and integers that are ordered as they are where none is negative. Elements
+// that are integers are widened.
 template <class T>
 struct Elements {
   using Integer = std::int32_t;
@@ -165,8 +166,8 @@ template <class T>
   return result;
 }
 
-// What fills cells, as signs of integers, which need no masks: negative where a cell is full, and where it is not
-// empty.
+// What fills cells, as signs of integers, which need no masks: negative where a cell is full, and
+// where it is not empty.
 template <class I>
 struct Filled {
   I full;
@@ -181,8 +182,8 @@ template <class T, class V>
 [[gnu::always_inline]] inline Filled<Order<V>> filled(const PlaneTask<T>& task, const V& values) {
   return filled_at(task, order<T>(values));
 }
-// Negative where full cells do not come before all others, and empty ones after all others, from the first vector
-// of cells to the next.
+// Negative where full cells do not come before all others, and empty ones after all others, from
+// the first vector of cells to the next.
 template <class I>
 [[gnu::always_inline]] inline I disorder(const Filled<I>& first, const Filled<I>& next) {
   return (next.full & ~first.full) | (next.some & ~first.some);
@@ -252,8 +253,8 @@ template <class I>
   return bits;
 }
 
-// Nine columns that run across x, all consistent? `along` leads from the material's end to the other;
-// rows of three columns lie `across` apart. Heights: [0] along x, [1] along `across`.
+// Nine columns that run across x, all consistent? `along` leads from the material's end to the
+// other; rows of three columns lie `across` apart. Heights: [0] along x, [1] along `across`.
 template <class T>
 [[gnu::always_inline]] inline bool heights_across_x(const PlaneTask<T>& task, const T* centre,
                                                     std::int64_t along, std::int64_t across,

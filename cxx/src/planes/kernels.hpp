@@ -1,6 +1,6 @@
 #pragma once
-// The inner loops that are worth vector instructions: compiled for several instruction sets, of which the best
-// that the machine has is chosen at run time. All give the same bits.
+// The inner loops that are worth vector instructions: compiled for several instruction sets, of
+// which the best that the machine has is chosen at run time. All give the same bits.
 
 #include <cstdint>
 
@@ -19,13 +19,13 @@ struct PlaneTask {
   T most_empty;  ///< the greatest that counts as empty
 };
 
-/// Of CellBatch::reach: what follows the cell along x is in memory so far that columns across x can be read from the
-/// one before it on, eight abreast.
+/// Of CellBatch::reach: what follows the cell along x is in memory so far that columns across x can
+/// be read from the one before it on, eight abreast.
 inline constexpr unsigned kEightAbreast = 8;
 inline constexpr int kAbreast = 8;
 
-/// Cells, at least one, whose 3x3x3 neighbourhoods are in memory, and what follows these along x: rows are read four
-/// abreast.
+/// Cells, at least one, whose 3x3x3 neighbourhoods are in memory, and what follows these along x:
+/// rows are read four abreast.
 template <class T>
 struct CellBatch {
   const T* const* centre;
@@ -44,11 +44,12 @@ struct PlaneBatch {
   unsigned undone;       ///< m and a say nothing: the cell needs the general code
 };
 
-/// Four doubles, m and then a; see unit_plane.hpp, which is not included: what is compiled here for wide
-/// vectors must hold no inline functions that the rest of the library has too.
+/// Four doubles, m and then a; see unit_plane.hpp, which is not included: what is compiled here for
+/// wide vectors must hold no inline functions that the rest of the library has too.
 struct UnitPlane;
 
-/// Edges and the planes of the cells at their ends; the places past `count` must hold some edge too.
+/// Edges and the planes of the cells at their ends; the places past `count` must hold some edge
+/// too.
 struct WindowBatch {
   const UnitPlane* lower[kBatch];
   const UnitPlane* upper[kBatch];
@@ -60,7 +61,8 @@ struct WindowBatch {
   unsigned undone;  ///< edges where the share filled may not be monotone: no result
 };
 
-/// For plane_fit.hpp: the neighbours that are there, and the cell itself. What is past `count` must be numbers.
+/// For plane_fit.hpp: the neighbours that are there, and the cell itself. What is past `count` must
+/// be numbers.
 inline constexpr int kFitCells = 32;
 struct FitTask {
   double fraction[kFitCells];

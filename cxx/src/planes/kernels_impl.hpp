@@ -1,6 +1,6 @@
 // The kernels, for the instruction set that the including file is compiled for. No include guard is
-// wanted: each of these files includes it once. Nothing here may call inline functions of other headers than
-// those of the same namespace; see lanes.hpp.
+// wanted: each of these files includes it once. Nothing here may call inline functions of other
+// headers than those of the same namespace; see lanes.hpp.
 
 #include "planes/columns_abreast.hpp"
 #include "planes/height_columns.hpp"
@@ -21,7 +21,8 @@ struct HeightLanes {
   double high[2][kBatch];
 };
 
-// Bits of the cells whose normals point along each axis, and of those among them with the material at the low end.
+// Bits of the cells whose normals point along each axis, and of those among them with the material
+// at the low end.
 struct Pointing {
   unsigned along[3];
   unsigned material_low[3];
@@ -287,8 +288,8 @@ struct EdgePlanes {
 [[gnu::always_inline]] inline EdgePlanes edge_planes(const UnitPlane* const* plane,
                                                      const std::uint8_t* axis,
                                                      const Chains& sense) {
-  // Of m, from the edge's own axis on, and then a. Where vectors are wide, their lanes are exchanged faster than
-  // addresses are found.
+  // Of m, from the edge's own axis on, and then a. Where vectors are wide, their lanes are
+  // exchanged faster than addresses are found.
   constexpr std::uint8_t kNext[3][4] = {{0, 1, 2, 3}, {1, 2, 0, 3}, {2, 0, 1, 3}};
   constexpr bool kByLanes = kPartLanes == kLanes;
   alignas(64) double columns[4][kChains];

@@ -1,6 +1,6 @@
 #pragma once
-// Normals from 3x3x3 fractions, for one cell or eight (lanes.hpp). Normals are in the unit cell and scaled to
-// |m|₁ = 1.
+// Normals from 3x3x3 fractions, for one cell or eight (lanes.hpp). Normals are in the unit cell and
+// scaled to |m|₁ = 1.
 
 #include "lanes/lanes.hpp"
 
@@ -49,8 +49,8 @@ struct MixedNormal {
   Mask<R> is_youngs;
 };
 
-/// MYC of Aulisa et al. 2007. `gradient` is Youngs' normal; present[axis][0] and [2] are 0 for layers that
-/// are missing, else 1.
+/// MYC of Aulisa et al. 2007. `gradient` is Youngs' normal; present[axis][0] and [2] are 0 for
+/// layers that are missing, else 1.
 template <class R>
 [[gnu::always_inline]] inline MixedNormal<R> mixed_normal(const R (&c)[27],
                                                           const double (&present)[3][3],

@@ -166,8 +166,8 @@ void NormalStencil<T>::gather_at_side(const Index3& cell, Neighbourhood& hood) c
   }
 }
 
-// One-sided differences tell too little of a surface that leaves the domain; all that the neighbours hold
-// tells enough.
+// One-sided differences tell too little of a surface that leaves the domain; all that the
+// neighbours hold tells enough.
 template <class T>
 Vec3 NormalStencil<T>::fit(const Neighbourhood& hood, const Vec3& m) {
   NeighbourFractions neighbours;
@@ -239,8 +239,8 @@ bool NormalStencil<T>::add_heights(const Index3& cell, std::size_t axis, double 
   return true;
 }
 
-// Sums nine cells, or what the domain has of them, from the material's end. Consistent: full cells, then
-// interfacial ones, then empty ones, at least one full and one empty.
+// Sums nine cells, or what the domain has of them, from the material's end. Consistent: full cells,
+// then interfacial ones, then empty ones, at least one full and one empty.
 template <class T>
 bool NormalStencil<T>::is_column(const Column& column, int count, double& height) const {
   // From both ends to the middle: the same from either side.

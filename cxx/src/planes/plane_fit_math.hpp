@@ -25,8 +25,8 @@ class PlaneSearch {
     constexpr int kMost = 12;
     constexpr double kLongest =
         0.5;  // radians, about: longer turns leave what the derivatives know
-    // Where a curved surface leaves residuals, a step that lessens their sum by less is the last. A plane's sum
-    // falls by a factor of 1e8 at each step, until nothing but rounding is left.
+    // Where a curved surface leaves residuals, a step that lessens their sum by less is the last. A
+    // plane's sum falls by a factor of 1e8 at each step, until nothing but rounding is left.
     constexpr double kWorthwhile = 1e-3;
     Vector best = unit({m[0], m[1], m[2]});
     Residuals r;
@@ -122,8 +122,8 @@ class PlaneSearch {
   // The turn, about two unit vectors across m, that the residuals' derivatives promise to be best.
   Turn step(const Vector& m, const Residuals& r, const Vector& across0,
             const Vector& across1) const {
-    // Central differences over turns this wide err by some 1e-4 of the derivatives, which costs a step, and
-    // hardly by rounding, so that mirrored neighbourhoods get mirrored planes.
+    // Central differences over turns this wide err by some 1e-4 of the derivatives, which costs a
+    // step, and hardly by rounding, so that mirrored neighbourhoods get mirrored planes.
     constexpr double kTurn = 1e-2;
     const Vector turns[4] = {
         turned(m, across0, across1, -kTurn, 0.0), turned(m, across0, across1, kTurn, 0.0),

@@ -213,8 +213,8 @@ class PlaneFitter {
     const std::uint64_t* above_;
   };
 
-  // Rows run in the order of memory, so of the columns that a cell reads, those next to its own in the order of
-  // rows are new.
+  // Rows run in the order of memory, so of the columns that a cell reads, those next to its own in
+  // the order of rows are new.
   void read_ahead(const T* centre, unsigned reach, bool along_y, bool along_z) const {
     const std::int64_t y = plan_.task.strides[1];
     const std::int64_t z = plan_.task.strides[2];

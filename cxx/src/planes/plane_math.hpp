@@ -111,8 +111,9 @@ template <class R>
 }
 
 // The range where the cut is a polygon of four to six corners has no inverse free of cancellation.
-// upper_corner_fraction is smooth and increasing there: two of Halley's steps do, from the cubic that has its values and
-// slopes at both ends, within a bracket that closes where rounding would throw them about.
+// upper_corner_fraction is smooth and increasing there: two of Halley's steps do, from the cubic
+// that has its values and slopes at both ends, within a bracket that closes where rounding would
+// throw them about.
 template <class R>
 [[gnu::always_inline]] inline R solve_corner_distance(const Sorted<R>& m, const R& share,
                                                       const R& share_at_middle,
@@ -126,8 +127,8 @@ template <class R>
   const R rise =
       select(two <= m.large, two * m.inverse_large * 0.5, constant<R>(0.5)) - share_at_middle;
   const R above_low = larger(share - share_at_middle, zero);
-  // The cubic, alpha as a function of the share, with a single division. Where the range is so narrow that this
-  // underflows, or empty by rounding, its end will do.
+  // The cubic, alpha as a function of the share, with a single division. Where the range is so
+  // narrow that this underflows, or empty by rounding, its end will do.
   const R slope_low = (m.middle - m.small * 0.5) * m.inverse_middle * m.inverse_large * width;
   const R slope_high = corner_slopes(m, high).first * width;
   const R product = rise * slope_low * slope_high;

@@ -12,8 +12,8 @@
 namespace difmesh::detail {
 
 struct SheetFacts {
-  /// Directions of the triangles' normals, of length 2^20; 0 where there is none. They are integers,
-  /// so their sums do not depend on their order.
+  /// Directions of the triangles' normals, of length 2^20; 0 where there is none. They are
+  /// integers, so their sums do not depend on their order.
   Array<std::array<std::int32_t, 3>> normals;
   /// 1 for vertices whose triangles go round them once, by edges, with all their normals in one
   /// half-space: seen along its direction, these triangles lie side by side. Vertices are told

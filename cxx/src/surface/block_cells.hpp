@@ -8,8 +8,8 @@
 
 namespace difmesh::detail {
 
-/// The cells of a block that are cells of their own, by local index: 1 to last, the next block's first layer
-/// included. The outermost ones are 1, dims and last.
+/// The cells of a block that are cells of their own, by local index: 1 to last, the next block's
+/// first layer included. The outermost ones are 1, dims and last.
 struct BlockCells {
   Index3 dims;
   Index3 last;

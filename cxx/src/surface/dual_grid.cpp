@@ -6,8 +6,8 @@
 namespace difmesh::detail {
 namespace {
 
-// Fractions this close to 0 or 1 along an open face, with no crossed edge at their cell, are no film on the
-// face: solvers leave such smears, and a plane fitted to them is worth nothing.
+// Fractions this close to 0 or 1 along an open face, with no crossed edge at their cell, are no
+// film on the face: solvers leave such smears, and a plane fitted to them is worth nothing.
 constexpr double kFilm = 0.01;
 
 // Domain faces, to the bit, for nodes on open and mirror sides; else cell centres or their

@@ -23,8 +23,8 @@ class DualGrid {
  public:
   DualGrid(const BlockField& field, NodeBits nodes);
 
-  /// Takes the outermost cells' planes; with `extend`, nodes on open domain faces are inside where the plane of
-  /// their cell says so, which lets the surface run on to the face.
+  /// Takes the outermost cells' planes; with `extend`, nodes on open domain faces are inside where
+  /// the plane of their cell says so, which lets the surface run on to the face.
   void set_planes(PlaneTable planes, bool extend);
 
   [[nodiscard]] const BlockField& field() const { return *field_; }

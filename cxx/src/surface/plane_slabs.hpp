@@ -1,6 +1,7 @@
 #pragma once
-// Planes of whole rows, for a walk through the block slab by slab: those between the outermost layers are computed
-// when they are needed and forgotten after, so that they stay in the cache and take no memory.
+// Planes of whole rows, for a walk through the block slab by slab: those between the outermost
+// layers are computed when they are needed and forgotten after, so that they stay in the cache and
+// take no memory.
 
 #include <algorithm>
 #include <array>

@@ -136,8 +136,8 @@ class Flagger {
                        first[(beyond - field_.block.offset[0]) * field_.view.strides[0]]);
     }
   }
-  // Which outermost cells of a row of inner ones are ends of crossed edges: bit 0 the first, bit 1 that at dims, bit 2
-  // the last.
+  // Which outermost cells of a row of inner ones are ends of crossed edges: bit 0 the first, bit 1
+  // that at dims, bit 2 the last.
   [[nodiscard]] unsigned outermost_ends(const EdgeEnds& ends) const {
     const auto is_end = [&](std::int64_t i) {
       return static_cast<unsigned>(ends.word(i / 64) >> (i % 64) & 1);

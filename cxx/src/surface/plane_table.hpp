@@ -1,7 +1,8 @@
 #pragma once
 // Planes of the cells that need one: those at an end of a crossed dual edge, and the interfacial
-// ones along open sides, where the surface may run on to the domain face. Those in the outermost layers of the block
-// are kept in a table, as what lies beyond may ask for any of them; the others: see plane_slabs.hpp.
+// ones along open sides, where the surface may run on to the domain face. Those in the outermost
+// layers of the block are kept in a table, as what lies beyond may ask for any of them; the others:
+// see plane_slabs.hpp.
 
 #include <cstdint>
 #include <vector>

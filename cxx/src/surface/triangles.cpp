@@ -121,8 +121,8 @@ struct NumberedRow {
   }
 };
 
-// The four rows of nodes around a row of cells, numbered by (j, k) bits. Rows in the order of memory share two of
-// them with the row before.
+// The four rows of nodes around a row of cells, numbered by (j, k) bits. Rows in the order of
+// memory share two of them with the row before.
 class RowsAround {
  public:
   RowsAround(const NodeBits& nodes, const std::vector<std::int64_t>& vertex_start)
@@ -171,8 +171,9 @@ class VertexNumbers {
     }
   }
 
-  /// Place in numbers() of the vertex on an edge of the cell; see case_table.hpp. Bit 0 of a row is its place in y, bit
-  /// 1 in z; the cell has an edge in y only from its lower rows in y, in z from its lower ones in z.
+  /// Place in numbers() of the vertex on an edge of the cell; see case_table.hpp. Bit 0 of a row is
+  /// its place in y, bit 1 in z; the cell has an edge in y only from its lower rows in y, in z from
+  /// its lower ones in z.
   [[nodiscard]] static constexpr unsigned place_of(unsigned edge) {
     const unsigned along = edge_axis(edge);
     const unsigned upper_x = along == 0 ? 0 : edge & 1U;
@@ -228,7 +229,8 @@ class VertexNumbers {
   int next_bit_ = 0;
 };
 
-// The triangles of a cell without ambiguous faces, at most four. One with such faces: see CellRow::triangles().
+// The triangles of a cell without ambiguous faces, at most four. One with such faces: see
+// CellRow::triangles().
 struct PlainCell {
   std::uint8_t place[12];  // in VertexNumbers::numbers()
   std::uint8_t count;
@@ -262,8 +264,8 @@ const PlainCells& plain_cells() {
   return cells;
 }
 
-// Writes triangles in the order in which they come. Those of plain cells are written four at a time, whatever their
-// number, so they wait in a buffer.
+// Writes triangles in the order in which they come. Those of plain cells are written four at a
+// time, whatever their number, so they wait in a buffer.
 class TriangleWriter {
  public:
   explicit TriangleWriter(Triangle* to) : to_(to), cells_(plain_cells()) {}

@@ -10,13 +10,13 @@
 
 namespace difmesh::detail {
 
-/// What a mesh will hold. Vertices are numbered in the order of their dual edges' ids, triangles in that of
-/// the dual cells.
+/// What a mesh will hold. Vertices are numbered in the order of their dual edges' ids, triangles in
+/// that of the dual cells.
 struct MeshCounts {
   std::vector<std::int64_t>
       vertex_start;  ///< first vertex of each row of nodes; the total at the end
-  /// First triangle of each portion of rows of dual cells, which are named by their lower nodes (see rows_per_portion);
-  /// the total at the end.
+  /// First triangle of each portion of rows of dual cells, which are named by their lower nodes
+  /// (see rows_per_portion); the total at the end.
   std::vector<std::int64_t> triangle_start;
 };
 [[nodiscard]] MeshCounts count_mesh(const DualGrid& grid, Phases& phases);

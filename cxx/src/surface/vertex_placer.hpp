@@ -46,7 +46,8 @@ struct DualEdge {
   bool upper_inside = false;
 };
 
-/// Places the vertices of one kind of options on one dual grid. Thread safety: const calls are safe.
+/// Places the vertices of one kind of options on one dual grid. Thread safety: const calls are
+/// safe.
 class VertexPlacer {
  public:
   VertexPlacer(const DualGrid& grid, const Options& options)

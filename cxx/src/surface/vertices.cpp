@@ -45,7 +45,8 @@ class RowPlacer {
         writer_(placer, mesh),
         queue_(placer, writer_, counts_) {}
 
-  /// \param planes of the row, the next in y and the next in z, where there are any; they must stay until finish()
+  /// \param planes of the row, the next in y and the next in z, where there are any; they must stay
+  ///   until finish()
   void place_row(std::int64_t j, std::int64_t k, std::int64_t first_vertex,
                  std::array<PlaneRow, 3>* planes) {
     const NodeBits& nodes = grid_.nodes();
@@ -58,7 +59,8 @@ class RowPlacer {
     const T* const row = own ? row_of_cells(j, k) : nullptr;
     const bool ends_y = is_end(1, j);
     const bool ends_z = is_end(2, k);
-    // Nodes whose edges all lead to cells of the block from such, none of them where the mesh may end.
+    // Nodes whose edges all lead to cells of the block from such, none of them where the mesh may
+    // end.
     const bool is_plain_row = own_along[1] && own_along[2] && !ends_y && !ends_z;
     const std::int64_t plain_from = std::max<std::int64_t>(1, nodes.first()[0] + 1);
     auto vertex = static_cast<std::size_t>(first_vertex);
@@ -165,8 +167,8 @@ class RowPlacer {
     return false;
   }
 
-  // The edges of a word, all between cells of the block; returns the number of the vertex after theirs. `first` is the
-  // node at bit 0.
+  // The edges of a word, all between cells of the block; returns the number of the vertex after
+  // theirs. `first` is the node at bit 0.
   std::size_t queue_word(const EdgeWord& word, const Index3& first, std::uint64_t inside,
                          std::size_t vertex) {
     const auto& [here, next_j, next_k] = *planes_;
@@ -328,9 +330,9 @@ std::vector<std::int64_t> histogram(const NodeBits& nodes,
   return vertices;
 }
 
-// Tiles of about as many vertices each: slabs, or rows in y where the surface lies in few slabs. Each tile computes the
-// planes of the rows after it once more, so there are few: enough to keep the threads busy to the end, and to report
-// progress between them.
+// Tiles of about as many vertices each: slabs, or rows in y where the surface lies in few slabs.
+// Each tile computes the planes of the rows after it once more, so there are few: enough to keep
+// the threads busy to the end, and to report progress between them.
 std::vector<RowTile> make_tiles(const NodeBits& nodes, const std::vector<std::int64_t>& row_start,
                                 const Phases& phases) {
   constexpr std::int64_t kTilesPerThread = 6;

@@ -42,7 +42,8 @@ class VertexWriter {
   std::uint64_t* edge_ids_;
 };
 
-/// Solves and writes the vertices of edges between cells. The planes must stay where they are until flush().
+/// Solves and writes the vertices of edges between cells. The planes must stay where they are until
+/// flush().
 class WindowQueue {
  public:
   WindowQueue(const VertexPlacer& placer, const VertexWriter& writer, EdgeCounts& counts)

@@ -121,7 +121,8 @@ contains
     call smooth%measure(after, status)
     call expect(abs(after%volume/before%volume - 1) < 1d-3, 'it keeps the volume')
     call smooth%smooth(mesh, status, smoothing, message=message)
-    call expect(status == dif_error_invalid_argument .and. index(message, 'grid') > 0, 'without grid')
+    call expect(status == dif_error_invalid_argument .and. index(message, 'grid') > 0, &
+      'without grid')
     call expect(smooth%vertex_count() == before%vertices, 'left as it was')
 
     call dif_mollified(dif_view(c), smooth_field, status)

@@ -428,7 +428,8 @@ class Files(unittest.TestCase):
         mesh = difmesh.Mesh(*CUBE)
         for part, options in (("gltf", {}), ("draco", {"format": "drc"}), ("draco", {"draco": 9})):
             if not difmesh.has(part):
-                with self.assertRaisesRegex(difmesh.UnsupportedError, f"(?i)without {part}|without gltf"):
+                message = f"(?i)without {part}|without gltf"
+                with self.assertRaisesRegex(difmesh.UnsupportedError, message):
                     mesh.save(self.path("cube.glb"), **options)
         if not difmesh.has("draco"):
             with self.assertRaises(difmesh.UnsupportedError):

@@ -54,7 +54,8 @@ class Values(unittest.TestCase):
                 )
         mask = ball_mask()
         self.assertTrue(
-            same_bits(difmesh.reconstruct(mask * -7, full_value=-7), difmesh.reconstruct(mask * 1.0))
+            same_bits(difmesh.reconstruct(mask * -7, full_value=-7),
+                      difmesh.reconstruct(mask * 1.0))
         )
 
     def test_a_mask_taken_as_fractions_brings_a_warning(self):

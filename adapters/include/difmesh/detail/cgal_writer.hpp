@@ -32,7 +32,8 @@ using HalfedgeOf = typename boost::graph_traits<Graph>::halfedge_descriptor;
 template <class Graph>
 using FaceOf = typename boost::graph_traits<Graph>::face_descriptor;
 
-/// CGAL::Surface_mesh, known by what is used of it. Its header is under the GPL and not needed here.
+/// CGAL::Surface_mesh, known by what is used of it. Its header is under the GPL and not needed
+/// here.
 template <class Graph>
 concept CgalSurfaceMesh = requires(Graph& mesh, std::uint32_t n, const std::string& name) {
   typename Graph::Point;

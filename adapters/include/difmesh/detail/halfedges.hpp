@@ -45,10 +45,10 @@ struct Halfedges {
   std::uint32_t edges = 0;
 };
 
-/// Finds for each corner the one whose halfedge runs the other way along its edge, or kNone, with one
-/// look at each. Corners whose mates are still to come hang in chains, one per vertex for the edges
-/// to vertices of higher index; `mates` holds the chains until it holds the mates, so that hardly any
-/// memory is touched but what is kept. Two pairs along one edge go unnoticed here.
+/// Finds for each corner the one whose halfedge runs the other way along its edge, or kNone, with
+/// one look at each. Corners whose mates are still to come hang in chains, one per vertex for the
+/// edges to vertices of higher index; `mates` holds the chains until it holds the mates, so that
+/// hardly any memory is touched but what is kept. Two pairs along one edge go unnoticed here.
 /// \pre indices are in range and differ within each face
 /// \return false if two halfedges were seen to be the same, or the chains are too long, as they are
 ///   where thousands of faces meet in an unlucky order; mates are then of no use
@@ -122,8 +122,8 @@ struct Halfedges {
 }
 
 /// Finds for each vertex a corner from which the others are reached by turning one way, or kNone.
-/// \return false if the faces of some vertex are more than one fan, or have more than two faces along
-///   an edge: the vertex at its other end is then met twice on the way round
+/// \return false if the faces of some vertex are more than one fan, or have more than two faces
+///   along an edge: the vertex at its other end is then met twice on the way round
 [[nodiscard]] inline bool find_first_corners(const Corners& corners,
                                              const Array<std::uint32_t>& mates,
                                              Array<std::uint32_t>& first) {

@@ -60,18 +60,18 @@ struct ReadFieldOptions {
 };
 
 /// Reads a field; the extension of the path, in any case of letters, tells the format.
-/// - `.npy`, versions 1 to 3: indexed [k,j,i]: C order has x fastest, Fortran order z. Types f2, f4,
-///   f8, integers of 1 to 8 bytes in either byte order, and b1: true is 1.
+/// - `.npy`, versions 1 to 3: indexed [k,j,i]: C order has x fastest, Fortran order z. Types f2,
+///   f4, f8, integers of 1 to 8 bytes in either byte order, and b1: true is 1.
 /// - `.nrrd`, `.nhdr`, NRRD0001 to NRRD0005: all types but block; encodings raw, gzip and ascii;
-///   data attached, in another file or in several (LIST, %d). Every sample is a cell. `space origin`
-///   and node-centred `axis mins` are the centre of the first one, other `axis mins` its low corner.
-///   `space directions` must lie along the axes to 1e-6, in any order and sense: strides put them in
-///   the order x, y, z and make them ascend. Coordinates are taken as they stand in any named space;
-///   there is no change between, say, LPS and RAS.
+///   data attached, in another file or in several (LIST, %d). Every sample is a cell. `space
+///   origin` and node-centred `axis mins` are the centre of the first one, other `axis mins` its
+///   low corner. `space directions` must lie along the axes to 1e-6, in any order and sense:
+///   strides put them in the order x, y, z and make them ascend. Coordinates are taken as they
+///   stand in any named space; there is no change between, say, LPS and RAS.
 /// Axes beyond three must have one sample, and the field's three must follow from that.
 /// Elements become uint8 or uint16 where the file has these, uint8 by `labels`; float32 where its
-/// elements have up to 2 bytes or are float32, and float64 otherwise. Integers of other types bring a
-/// warning where doubt_of_scale() has one; of uint8 and uint16 reconstruct() has it.
+/// elements have up to 2 bytes or are float32, and float64 otherwise. Integers of other types bring
+/// a warning where doubt_of_scale() has one; of uint8 and uint16 reconstruct() has it.
 ///
 /// The file is checked against its header before memory is taken: never more than five times the
 /// size of its data, or 1032 times five for gzip, as deflate gives 1032 at most. Of inflated bytes
