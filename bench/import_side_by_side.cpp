@@ -19,8 +19,8 @@
 #include <string>
 #include <vector>
 
-#include "difmesh/cgal.hpp"
-#include "difmesh/openmesh.hpp"
+#include "difmesh/adapters/cgal.hpp"
+#include "difmesh/adapters/openmesh.hpp"
 #include "difmesh/reconstruct.hpp"
 #include "fields.hpp"
 #include "heap.hpp"

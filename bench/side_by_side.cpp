@@ -1,7 +1,8 @@
 // Ours and VTK's vtkFlyingEdges3D on the same field in the same process, in turn, so that a machine
 // that changes its speed changes both. Prints medians, the median of the ratios of neighbouring
 // runs, and how far each raises the process's memory; then how the time grows with the grid.
-//   scripts/bench.sh runs it. side_by_side [rounds] [most threads]
+// scripts/bench.sh runs it.
+//   side_by_side [rounds] [most threads]
 
 #include <malloc.h>
 
@@ -15,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "difmesh/names.hpp"
 #include "difmesh/reconstruct.hpp"
 #include "fields.hpp"
 #include "flying_edges.hpp"
@@ -67,10 +69,6 @@ Reconstruction run_ours(const std::vector<T>& field, std::int64_t n, Placement p
   return reconstruct(FieldView::x_fastest(field.data(), grid.dims), grid, options);
 }
 
-const char* name_of(Placement placement) {
-  return placement == Placement::plic ? "plic" : "linear";
-}
-
 // Medians of one case, in seconds.
 struct Times {
   double ours = 0.0;
@@ -110,8 +108,8 @@ void compare(const std::string& name, std::int64_t n, int threads, int rounds, s
     std::printf(
         "| %-6s %3lld | %-7s | %d | %-6s | %8.2f | %8.2f | %5.2f | %7zu | %6.1f | %6.1f |\n",
         name.c_str(), static_cast<long long>(n), sizeof(T) == 4 ? "float32" : "float64", threads,
-        name_of(placement), 1e3 * times.ours, 1e3 * times.theirs, times.ratio, vertices, our_peak,
-        their_peak);
+        name_of(kPlacements, placement).data(), 1e3 * times.ours, 1e3 * times.theirs, times.ratio,
+        vertices, our_peak, their_peak);
     std::fflush(stdout);
     if (all != nullptr) {
       all->push_back(times);

@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "command.hpp"
-#include "difmesh/distance.hpp"
 #include "difmesh/error.hpp"
 #include "difmesh/measure.hpp"
+#include "difmesh/metrics/distance.hpp"
 #include "json.hpp"
 #include "long_call.hpp"
 #include "mesh_facts.hpp"
@@ -43,6 +44,8 @@ struct Request {
   std::string mesh_path;
   ReferenceInput reference;
   std::string json_path;
+  std::optional<double> facet_spacing;
+  bool without_sign = false;
   int threads = 0;
 };
 
@@ -204,6 +207,9 @@ void check_request(const Request& request) {
   if (!request.reference.is_given()) {
     throw CLI::ValidationError("--shape", "needed, or --reference");
   }
+  if (request.without_sign && request.reference.path.empty()) {
+    throw CLI::ValidationError("--without-sign", "only for a reference mesh");
+  }
   if (!request.json_path.empty()) {
     check_output("--json", request.json_path, request.mesh_path);
     check_output("--json", request.json_path, request.reference.path);
@@ -215,6 +221,8 @@ void run(const Request& request) {
   const bool as_json = !request.json_path.empty();
   LongCall long_call("comparing", false);
   DistanceOptions options;
+  options.facet_spacing = request.facet_spacing.value_or(options.facet_spacing);
+  options.with_sign = !request.without_sign;
   options.threads = request.threads;
   options.progress = long_call.progress();
   const Comparison comparison = request.reference.shape_name.empty()
@@ -242,6 +250,18 @@ void add_compare_command(CLI::App& program) {
       .add_option("--json", request->json_path,
                   "Write the facts as JSON to FILE instead of text; - is standard output")
       ->option_text("FILE");
+  command
+      .add_option_function<std::string>(
+          "--facet-spacing",
+          [request](const std::string& text) {
+            request->facet_spacing =
+                parse_number("--facet-spacing", text, {0.0, std::numeric_limits<double>::max()});
+          },
+          "How far facet points are from the next ones on their triangle at most, in the unit of\n"
+          "the mesh; 0, the default: as far as the usual triangle's four points")
+      ->option_text("LENGTH");
+  command.add_flag("--without-sign", request->without_sign,
+                   "Do not tell inside from outside of a reference mesh");
   add_threads_option(command, "The distances do", request->threads);
   add_reference_options(command, request->reference);
   command.add_flag("--allow-outside", request->reference.allow_outside, kAllowOutsideHelp);

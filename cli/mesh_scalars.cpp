@@ -90,16 +90,16 @@ bool has_scalars(const Mesh& mesh, const std::string& name) {
   return std::ranges::find(mesh.scalars, name, &VertexScalar::name) != mesh.scalars.end();
 }
 
-ColourMap map_of(const ColourScale& scale, const std::string& name) {
-  return scale.map.value_or(name == kErrorName ? ColourMap::cool_warm : ColourMap::viridis);
+ColorMap map_of(const ColorScale& scale, const std::string& name) {
+  return scale.map.value_or(name == kErrorName ? ColorMap::cool_warm : ColorMap::viridis);
 }
 
-void add_colour_scale_options(CLI::App& command, ColourScale& scale) {
+void add_color_scale_options(CLI::App& command, ColorScale& scale) {
   command
       .add_option_function<std::string>(
           "--color-map",
           [&scale](const std::string& text) {
-            scale.map = parse_name("--color-map", text, kColourMaps);
+            scale.map = parse_name("--color-map", text, kColorMaps);
           },
           "viridis (default), or cool_warm, which diverges from 0 (default of error)")
       ->option_text("NAME");
@@ -107,7 +107,7 @@ void add_colour_scale_options(CLI::App& command, ColourScale& scale) {
       .add_option_function<std::string>(
           "--color-range",
           [&scale](const std::string& text) { scale.range = parse_range("--color-range", text); },
-          "Numbers of the first and the last colour. Default: all there are")
+          "Numbers of the first and the last color. Default: all there are")
       ->option_text("LOW,HIGH");
 }
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "difmesh/curvature.hpp"
-#include "difmesh/io/colour_map.hpp"
+#include "difmesh/io/color_map.hpp"
 #include "difmesh/mesh.hpp"
 
 namespace difmesh::cli {
@@ -46,15 +46,15 @@ struct ScalarKind {
 [[nodiscard]] bool has_scalars(const Mesh& mesh, const std::string& name);
 
 /// How numbers become colours, as far as the command line says.
-struct ColourScale {
-  std::optional<ColourMap> map;
+struct ColorScale {
+  std::optional<ColorMap> map;
   std::optional<std::array<double, 2>> range;
 };
 
 /// The map that was asked for, else the one that suits the scalars of that name.
-[[nodiscard]] ColourMap map_of(const ColourScale& scale, const std::string& name);
+[[nodiscard]] ColorMap map_of(const ColorScale& scale, const std::string& name);
 
 /// Adds --color-map and --color-range. `scale` must outlive the parsing.
-void add_colour_scale_options(CLI::App& command, ColourScale& scale);
+void add_color_scale_options(CLI::App& command, ColorScale& scale);
 
 }  // namespace difmesh::cli

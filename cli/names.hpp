@@ -1,6 +1,7 @@
 #pragma once
 /// \file names.hpp
-/// What the library's choices are called on the command line and in reports.
+/// The ranges of options, and the extensions of files, that the command line speaks of. Words of
+/// choices: difmesh/names.hpp and difmesh/io/names.hpp.
 
 #include <array>
 #include <span>
@@ -9,9 +10,8 @@
 #include <vector>
 
 #include "difmesh/io/mesh_format.hpp"
-#include "difmesh/io/write_mesh_options.hpp"
-#include "difmesh/options.hpp"
-#include "difmesh/values.hpp"
+#include "difmesh/io/names.hpp"
+#include "difmesh/names.hpp"
 
 namespace difmesh::cli {
 
@@ -20,60 +20,6 @@ struct Range {
   double low = 0.0;
   double high = 0.0;
 };
-
-template <class Value>
-struct Named {
-  std::string_view name;
-  Value value;
-};
-
-inline constexpr std::array<Named<Placement>, 4> kPlacements{{{"midpoint", Placement::midpoint},
-                                                              {"linear", Placement::linear},
-                                                              {"manson", Placement::manson},
-                                                              {"plic", Placement::plic}}};
-
-inline constexpr std::array<Named<Normals>, 5> kNormals{
-    {{"youngs", Normals::youngs},
-     {"myc", Normals::myc},
-     {"height_function", Normals::height_function},
-     {"elvira", Normals::elvira},
-     {"lvira", Normals::lvira}}};
-
-inline constexpr std::array<Named<Side>, 5> kSides{{{"open", Side::open},
-                                                    {"mirror", Side::mirror},
-                                                    {"periodic", Side::periodic},
-                                                    {"empty", Side::empty},
-                                                    {"full", Side::full}}};
-
-inline constexpr std::array<Named<ValueType>, 10> kValueTypes{{{"float32", ValueType::float32},
-                                                               {"float64", ValueType::float64},
-                                                               {"uint8", ValueType::uint8},
-                                                               {"uint16", ValueType::uint16},
-                                                               {"int8", ValueType::int8},
-                                                               {"int16", ValueType::int16},
-                                                               {"int32", ValueType::int32},
-                                                               {"uint32", ValueType::uint32},
-                                                               {"int64", ValueType::int64},
-                                                               {"uint64", ValueType::uint64}}};
-
-inline constexpr std::array<Named<ColourMap>, 2> kColourMaps{
-    {{"viridis", ColourMap::viridis}, {"cool_warm", ColourMap::cool_warm}}};
-
-inline constexpr std::array<Named<UpAxis>, 2> kUpAxes{{{"y", UpAxis::y}, {"z", UpAxis::z}}};
-
-inline constexpr std::array<Named<DracoMethod>, 2> kDracoMethods{
-    {{"edgebreaker", DracoMethod::edgebreaker}, {"sequential", DracoMethod::sequential}}};
-
-/// The name of a value. \pre the table has it
-template <class Value, std::size_t n>
-[[nodiscard]] constexpr std::string_view name_of(const std::array<Named<Value>, n>& table,
-                                                 Value value) {
-  std::size_t i = 0;
-  while (i + 1 < n && table[i].value != value) {
-    ++i;
-  }
-  return table[i].name;
-}
 
 /// What the library takes; see options.hpp and mollify.hpp.
 inline constexpr Range kPurityToleranceRange{0.0, 0.1};

@@ -115,29 +115,29 @@ Index3 parse_dims(const std::string& option, std::string_view text) {
           parse_integer(option, words[2], 1, kMost)};
 }
 
-Sides parse_sides(const std::string& option, std::string_view text) {
+Boundary parse_boundary(const std::string& option, std::string_view text) {
   const std::vector<std::string_view> words = split_at_commas(text);
-  Sides sides{};
+  Boundary boundary{};
   if (words.size() == 1) {
-    sides.fill(parse_name(option, words[0], kSides));
-    return sides;
+    boundary.fill(parse_name(option, words[0], kSides));
+    return boundary;
   }
-  if (words.size() != sides.size()) {
+  if (words.size() != boundary.size()) {
     throw CLI::ValidationError(option, quoted(text) + " names " + std::to_string(words.size()) +
                                            " sides; one name for all or six wanted: "
                                            "xlo,xhi,ylo,yhi,zlo,zhi");
   }
-  for (std::size_t side = 0; side < sides.size(); ++side) {
-    sides[side] = parse_name(option, words[side], kSides);
+  for (std::size_t side = 0; side < boundary.size(); ++side) {
+    boundary[side] = parse_name(option, words[side], kSides);
   }
-  for (std::size_t low = 0; low < sides.size(); low += 2) {
-    if ((sides[low] == Side::periodic) != (sides[low + 1] == Side::periodic)) {
+  for (std::size_t low = 0; low < boundary.size(); low += 2) {
+    if ((boundary[low] == Side::periodic) != (boundary[low + 1] == Side::periodic)) {
       throw CLI::ValidationError(option, quoted(text) +
                                              ": both sides of an axis must be periodic, "
                                              "or none of them");
     }
   }
-  return sides;
+  return boundary;
 }
 
 std::array<double, 2> parse_range(const std::string& option, const std::string& text) {

@@ -40,7 +40,7 @@ void add_threads_option(CLI::App& command, const std::string& result, int& threa
 /// Three counts of cells, each >= 1.
 [[nodiscard]] Index3 parse_dims(const std::string& option, std::string_view text);
 /// One name for all sides, or six: xlo,xhi,ylo,yhi,zlo,zhi. Periodic sides come in pairs.
-[[nodiscard]] Sides parse_sides(const std::string& option, std::string_view text);
+[[nodiscard]] Boundary parse_boundary(const std::string& option, std::string_view text);
 
 /// The value with that name.
 template <class Value, std::size_t n>

@@ -75,8 +75,9 @@ struct Seconds {
 
 /// The volumes are those of the same body: no side counts as full beyond the domain.
 std::optional<double> volume_difference(const Request& request, const Report& report) {
-  const Sides& sides = request.options.sides;
-  const bool full_beyond = std::find(sides.begin(), sides.end(), Side::full) != sides.end();
+  const Boundary& boundary = request.options.boundary;
+  const bool full_beyond =
+      std::find(boundary.begin(), boundary.end(), Side::full) != boundary.end();
   if (!report.closed || full_beyond || !(report.fraction_volume > 0.0)) {
     return std::nullopt;
   }
@@ -95,13 +96,13 @@ std::optional<double> mollify_radius(const Request& request) {
 Json options_json(const Request& request) {
   const Options& options = request.options;
   const std::optional<double> radius = mollify_radius(request);
-  Json sides = Json::array();
-  for (const Side side : options.sides) {
-    sides.push_back(name_of(kSides, side));
+  Json boundary = Json::array();
+  for (const Side side : options.boundary) {
+    boundary.push_back(name_of(kSides, side));
   }
   return {{"placement", name_of(kPlacements, options.placement)},
           {"normals", name_of(kNormals, options.normals)},
-          {"boundary", sides},
+          {"boundary", boundary},
           {"purity_tolerance", options.purity_tolerance},
           {"overshoot_bound", options.overshoot_bound},
           {"clearance", options.clearance},
@@ -217,7 +218,7 @@ Reconstruction reconstruct_field(const Request& request, const LoadedField& fiel
   static_cast<void>(interfacial_cells(view, field.grid, checked));
   MollifyOptions mollify_options;
   mollify_options.radius = *radius;
-  mollify_options.sides = options.sides;
+  mollify_options.boundary = options.boundary;
   mollify_options.threads = options.threads;
   mollify_options.progress = long_call.progress();
   const Array<double> smooth = mollify(view, mollify_options);
@@ -386,7 +387,9 @@ void add_method_options(CLI::App& command, Request& request) {
   command
       .add_option_function<std::string>(
           "--boundary",
-          [&options](const std::string& text) { options.sides = parse_sides("--boundary", text); },
+          [&options](const std::string& text) {
+            options.boundary = parse_boundary("--boundary", text);
+          },
           "What lies beyond the sides of the domain; one name for all sides, or\n"
           "six: xlo,xhi,ylo,yhi,zlo,zhi\n"
           "  open      unknown: the surface ends at the side (default)\n"

@@ -8,7 +8,7 @@
 #include "mesh_scalars.hpp"
 #include "names.hpp"
 #ifdef DIFMESH_WITH_METRICS
-#include "difmesh/point_distances.hpp"
+#include "difmesh/metrics/point_distances.hpp"
 #endif
 
 namespace difmesh::cli {

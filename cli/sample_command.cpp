@@ -51,9 +51,6 @@ constexpr const char* kFooter =
 /// Extensions that fields can be written with.
 constexpr std::array<std::string_view, 2> kWritten{".npy", ".nrrd"};
 
-constexpr std::array<Named<Overlaps>, 3> kOverlaps{
-    {{"union", Overlaps::unite}, {"refuse", Overlaps::refuse}, {"count", Overlaps::count}}};
-
 constexpr std::array<Named<ScalarType>, 2> kTypes{
     {{"float32", ScalarType::float32}, {"float64", ScalarType::float64}}};
 
@@ -65,6 +62,9 @@ struct Request {
   bool flip = false;
   bool allow_outside = false;
   std::optional<double> cracks;  ///< as a share of a column's cross-section
+  std::optional<double> tolerance;
+  std::optional<double> kink_tolerance;
+  std::optional<std::int64_t> max_calls_per_cell;
   std::optional<Overlaps> overlaps;
   ScalarType type = ScalarType::float64;
   int threads = 0;
@@ -93,6 +93,9 @@ Sample sample_shape(const Request& request, LongCall& long_call) {
   Sample sample;
   sample.grid = grid_around(shape.bounds(), request.grid);
   FractionsFromFunctionOptions options;
+  options.tolerance = request.tolerance.value_or(options.tolerance);
+  options.kink_tolerance = request.kink_tolerance.value_or(options.kink_tolerance);
+  options.max_calls_per_cell = request.max_calls_per_cell.value_or(options.max_calls_per_cell);
   options.threads = request.threads;
   options.progress = long_call.progress();
   FractionsFromFunction result = fractions_from_shape(sample.grid, shape, options);
@@ -229,6 +232,15 @@ void check_request(const Request& request) {
     throw CLI::ValidationError(request.shape.given.front(),
                                "'" + request.body + "' is a mesh, it has no such parameter");
   }
+  const std::pair<bool, const char*> of_shapes[] = {
+      {request.tolerance.has_value(), "--tolerance"},
+      {request.kink_tolerance.has_value(), "--kink-tolerance"},
+      {request.max_calls_per_cell.has_value(), "--max-calls-per-cell"}};
+  for (const auto& [given, option] : of_shapes) {
+    if (request.is_mesh() && given) {
+      throw CLI::ValidationError(option, "meshes have exact fractions; it is for shapes");
+    }
+  }
   if (!request.is_mesh() && request.flip) {
     throw CLI::ValidationError("--flip", "only meshes can be inside out");
   }
@@ -302,6 +314,35 @@ void add_grid_options(CLI::App& command, GridWish& grid) {
       ->group("Grid");
 }
 
+void add_accuracy_options(CLI::App& command, Request& request) {
+  const auto add_tolerance = [&command](const char* option, std::optional<double>& tolerance,
+                                        const char* help) {
+    command
+        .add_option_function<std::string>(
+            option,
+            [option, &tolerance](const std::string& text) {
+              tolerance = parse_number(option, text, {1e-13, 1e-2});
+            },
+            help)
+        ->option_text("ERROR")
+        ->group("Accuracy of shapes");
+  };
+  add_tolerance("--tolerance", request.tolerance,
+                "Error aimed at in the fraction of each cell, 1e-13 to 0.01 (1e-10)");
+  add_tolerance("--kink-tolerance", request.kink_tolerance,
+                "The same where the shape has an edge, if that is larger (1e-5)");
+  command
+      .add_option_function<std::string>(
+          "--max-calls-per-cell",
+          [&request](const std::string& text) {
+            request.max_calls_per_cell =
+                parse_integer("--max-calls-per-cell", text, 1000, 1'000'000'000);
+          },
+          "Evaluations after which a cell is estimated and counts as unresolved (200000)")
+      ->option_text("N")
+      ->group("Accuracy of shapes");
+}
+
 }  // namespace
 
 void add_sample_command(CLI::App& program) {
@@ -348,6 +389,7 @@ void add_sample_command(CLI::App& program) {
   command.add_flag("--quiet", request->quiet, "Print nothing but errors");
   add_grid_options(command, request->grid);
   add_shape_options(command, request->shape);
+  add_accuracy_options(command, *request);
   command.callback([request] { run(*request); });
 }
 

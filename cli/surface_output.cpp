@@ -16,8 +16,8 @@ namespace {
 // Of the spacing: as much as second-order vertices are off by on coarse grids.
 constexpr double kCoarse = 0.01;
 
-bool has_colours(const MeshFormat& format) {
-  return format.colours;
+bool has_colors(const MeshFormat& format) {
+  return format.colors;
 }
 bool has_scene(const MeshFormat& format) {
   return format.scene;
@@ -106,13 +106,13 @@ std::string kinds_text() {
   return text;
 }
 
-void add_colour_options(CLI::App& command, SurfaceOutput& output) {
+void add_color_options(CLI::App& command, SurfaceOutput& output) {
   command
       .add_option("--color-by", output.color_by,
-                  "Colour " + listed(has_colours, "and") +
+                  "Color " + listed(has_colors, "and") +
                       " by a number per vertex, which is written too:" + kinds_text())
       ->option_text("NAME");
-  add_colour_scale_options(command, output.colours);
+  add_color_scale_options(command, output.colors);
 }
 
 }  // namespace
@@ -127,7 +127,7 @@ void add_surface_options(CLI::App& command, SurfaceOutput& output) {
                    "Write mean and Gaussian curvature with each vertex (" +
                        mesh_extensions_text(has_scalar_place) + ")");
   add_draco_options(command, output);
-  add_colour_options(command, output);
+  add_color_options(command, output);
   command
       .add_option_function<std::string>(
           "--up",
@@ -168,11 +168,11 @@ void check_surface_output(const SurfaceOutput& output, const std::vector<std::st
   check_draco(output.draco_method.has_value(), "--draco-method");
   check_draco(output.draco_speed.has_value(), "--draco-speed");
   check(output.curvature, "--curvature", has_scalar_place);
-  check(!output.color_by.empty(), "--color-by", has_colours);
+  check(!output.color_by.empty(), "--color-by", has_colors);
   check(output.up.has_value(), "--up", has_scene);
   check(output.metres_per_unit.has_value(), "--metres-per-unit", has_scene);
-  if (output.color_by.empty() && (output.colours.map || output.colours.range)) {
-    throw CLI::ValidationError(output.colours.map ? "--color-map" : "--color-range",
+  if (output.color_by.empty() && (output.colors.map || output.colors.range)) {
+    throw CLI::ValidationError(output.colors.map ? "--color-map" : "--color-range",
                                "needs --color-by");
   }
   // Wrong words are told before the work begins.
@@ -197,7 +197,7 @@ MeshFileReport write_surface(const SurfaceOutput& output, Mesh& mesh, double cel
     if (!has_scalars(mesh, name)) {
       mesh.scalars.push_back(scalars_of("--color-by", output.color_by, mesh));
     }
-    options.colour = ColourBy{name, map_of(output.colours, name), output.colours.range};
+    options.color = ColorBy{name, map_of(output.colors, name), output.colors.range};
   }
   options.up = output.up.value_or(options.up);
   options.metres_per_unit = output.metres_per_unit.value_or(options.metres_per_unit);

@@ -22,7 +22,7 @@ struct SurfaceOutput {
   std::optional<int> draco_speed;
   bool curvature = false;  ///< write it with each vertex
   std::string color_by;
-  ColourScale colours;
+  ColorScale colors;
   std::optional<UpAxis> up;
   std::optional<double> metres_per_unit;
 

@@ -33,7 +33,7 @@ constexpr const char* kDescription =
     "\n"
     "The page is one file with all that it needs; nothing is fetched when it is opened. It turns "
     "and\n"
-    "zooms, shows wireframes, and colours by numbers per vertex: those in the file, x, y, z, the "
+    "zooms, shows wireframes, and colors by numbers per vertex: those in the file, x, y, z, the "
     "angle\n"
     "between facets and curvature. Two surfaces are shown side by side or in turn. A field is\n"
     "reconstructed: linear and "
@@ -54,7 +54,7 @@ struct Request {
   std::string second_path;
   std::string page_path;
   std::string color_by;
-  ColourScale colours;
+  ColorScale colors;
   ReferenceInput reference;
   UpAxis up = UpAxis::y;
   bool quiet = false;
@@ -159,13 +159,13 @@ void add_all_scalars(Mesh& mesh) {
   }
 }
 
-std::vector<std::array<int, 3>> colour_table(ColourMap map) {
+std::vector<std::array<int, 3>> color_table(ColorMap map) {
   std::vector<std::array<int, 3>> table;
   for (int i = 0; i < 256; ++i) {
-    const Colour colour = colour_of(map, i / 255.0);
-    table.push_back({static_cast<int>(std::lround(255.0 * colour[0])),
-                     static_cast<int>(std::lround(255.0 * colour[1])),
-                     static_cast<int>(std::lround(255.0 * colour[2]))});
+    const Color color = color_of(map, i / 255.0);
+    table.push_back({static_cast<int>(std::lround(255.0 * color[0])),
+                     static_cast<int>(std::lround(255.0 * color[1])),
+                     static_cast<int>(std::lround(255.0 * color[2]))});
   }
   return table;
 }
@@ -187,12 +187,12 @@ Json scene_json(const Request& request, std::vector<Shown>& shown) {
     scene["surfaces"].push_back(
         {{"name", one.name}, {"glb", encode_glb_base64(one.surface.mesh, options)}});
   }
-  const ColourMap map = map_of(request.colours, request.color_by);
-  scene["colours"] = colour_table(map);
-  scene["diverging"] = map == ColourMap::cool_warm;
+  const ColorMap map = map_of(request.colors, request.color_by);
+  scene["colors"] = color_table(map);
+  scene["diverging"] = map == ColorMap::cool_warm;
   scene["colorBy"] = scalars_name(request.color_by);
-  if (request.colours.range) {
-    scene["range"] = *request.colours.range;
+  if (request.colors.range) {
+    scene["range"] = *request.colors.range;
   }
   return scene;
 }
@@ -237,12 +237,12 @@ void run(const Request& request) {
   print_fact(std::cout, "size", count_of(static_cast<std::int64_t>(bytes), "byte"));
 }
 
-void add_colour_options(CLI::App& command, Request& request) {
+void add_color_options(CLI::App& command, Request& request) {
   command
       .add_option("--color-by", request.color_by,
-                  "Number per vertex to colour by at first; the page offers all")
+                  "Number per vertex to color by at first; the page offers all")
       ->option_text("NAME");
-  add_colour_scale_options(command, request.colours);
+  add_color_scale_options(command, request.colors);
   command
       .add_option_function<std::string>(
           "--up",
@@ -267,7 +267,7 @@ void add_view_command(CLI::App& program) {
   command.add_option("-o,--output", request->page_path, "Page to write (.html)")
       ->required()
       ->option_text("PAGE");
-  add_colour_options(command, *request);
+  add_color_options(command, *request);
   command.add_flag("--quiet", request->quiet, "Print nothing but errors");
   add_field_options(command, request->input);
   add_reference_options(command, request->reference);

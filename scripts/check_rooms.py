@@ -30,7 +30,8 @@ ROOMS = {
 PUBLIC = {
     "base": ["array", "error", "float_environment", "out_of_memory", "printable", "progress",
              "vec3", "version"],
-    "grid": ["block", "edge_id", "field_view", "grid", "options", "report", "values"],
+    "grid": ["block", "edge_id", "field_view", "grid", "names", "options", "report",
+             "values"],
     "planes": ["plane"],
     "cells": ["cell_planes"],
     "mesh": ["curvature", "measure", "mesh", "mesh_portion", "smoothing",

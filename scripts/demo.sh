@@ -77,8 +77,8 @@ for phase in read classify normals count vertices triangles; do
 done
 cat <<END
 
-  Both meshes have the same triangles; what differs is where their vertices are put. Roughness is the
-  rms angle between neighbouring facets.
+  Both meshes have the same triangles; what differs is where their vertices are put. Roughness is
+  the rms angle between neighbouring facets.
 
 Sizes in bytes:
 END
@@ -89,7 +89,7 @@ cat <<END
 
 Written to $(pwd)/$out:
   drops_linear.ply, drops_plic.ply    the meshes
-  drops_plic.glb                      for viewers, coloured by the angle between facets
+  drops_plic.glb                      for viewers, colored by the angle between facets
   drops_plic_draco.glb                the same, compressed
   drops.html                          a page with both meshes, for any browser
   drops_*.json, drops_*.info.json     reports: the work, and the meshes measured

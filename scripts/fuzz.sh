@@ -34,7 +34,8 @@ for target in "${targets[@]}"; do
   [ "$target" != capi ] || settings=(-max_len=256 -reload=0 -entropic=0)
   echo "== $target for $seconds s"
   if ! "build/fuzz/tests/fuzz/${target}_fuzz" -max_total_time="$seconds" "${settings[@]}" \
-    -timeout=20 -rss_limit_mb=4096 -print_final_stats=1 -artifact_prefix="build/fuzz/found/$target-" \
+    -timeout=20 -rss_limit_mb=4096 -print_final_stats=1 \
+    -artifact_prefix="build/fuzz/found/$target-" \
     "build/fuzz/work/$target" "tests/fuzz/corpus/$target" >"build/fuzz/$target.log" 2>&1; then
     failed+=("$target")
     tail -n 30 "build/fuzz/$target.log" >&2

@@ -4,9 +4,11 @@
 #   paper.sh                all of it: a quarter of an hour or less on two cores
 #   paper.sh --short        fewer cells, places and ways: a minute
 #   paper.sh --out DIR      where to: tables (.csv, .md), plots (.svg) and pictures (.jpg); default
-#   paper-out paper.sh --mesh FILE    a closed mesh instead of the bunny of ../shared/data; without
-#   either it is left out paper.sh --docs         puts tables, plots and pictures into docs/paper.md
-# and docs/paper, too Exit code 1: what is claimed does not hold.
+#                           paper-out
+#   paper.sh --mesh FILE    a closed mesh instead of the bunny of ../shared/data; without either it
+#                           is left out
+#   paper.sh --docs         puts tables, plots and pictures into docs/paper.md and docs/paper, too
+# Exit code 1: what is claimed does not hold.
 set -euo pipefail
 export LC_ALL=C.UTF-8
 home=$(dirname "$(realpath "$0")")/..

@@ -6,7 +6,8 @@
 #   setup.sh --bench    the benchmarks as well (Google Benchmark, VTK)
 #   setup.sh --bench-others  what is timed beside ours from Python (scikit-image, OpenVDB)
 #   setup.sh --paper    what draws figures as well (gnuplot, Chromium), and VTK, which is measured
-#   beside ours setup.sh --fuzz     the search for bad inputs as well (clang's libFuzzer)
+#                       beside ours
+#   setup.sh --fuzz     the search for bad inputs as well (clang's libFuzzer)
 #   setup.sh --tsan     what oneTBB is built with for ThreadSanitizer as well
 set -euo pipefail
 

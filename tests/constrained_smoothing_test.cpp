@@ -51,7 +51,7 @@ Mesh noise(const Grid& grid, std::uint64_t seed) {
   const OwnedField field = white_noise(grid.dims, seed);
   difmesh::Options options;
   options.edge_ids = true;
-  options.sides.fill(difmesh::Side::empty);
+  options.boundary.fill(difmesh::Side::empty);
   return difmesh::reconstruct(field.view(), grid, options).mesh;
 }
 

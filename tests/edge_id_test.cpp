@@ -56,7 +56,7 @@ TEST_CASE("edge ids: each vertex of blocks is owned by one of those that have it
   const difmesh::Grid grid{.dims = field.dims};
   for (const Side side : {Side::open, Side::mirror, Side::empty, Side::periodic}) {
     difmesh::Options options;
-    options.sides.fill(side);
+    options.boundary.fill(side);
     options.edge_ids = true;
     const auto whole = difmesh::reconstruct(field.view(), grid, options).mesh;
     std::map<std::uint64_t, int> owners;

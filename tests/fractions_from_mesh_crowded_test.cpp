@@ -29,9 +29,9 @@ using namespace difmesh::test;
 
 constexpr double kPi = std::numbers::pi;
 #ifdef DIFMESH_SANITIZED
-constexpr int kSides = 60;
+constexpr int kCorners = 60;
 #else
-constexpr int kSides = 300;
+constexpr int kCorners = 300;
 #endif
 
 struct Ring {
@@ -170,28 +170,28 @@ Shells close_shells() {
 }  // namespace
 
 TEST_CASE("prisms of many sides in one cell have the closed form of their union") {
-  const double one = area_of_polygon(kSides);
-  const double both = area_of_two_polygons(kSides);
-  TriangleMesh mesh = prism(kSides, 1.0, 0.0, 1.0);
-  mesh.append(prism(kSides, 1.0, 0.5, 1.5, kPi / kSides));
+  const double one = area_of_polygon(kCorners);
+  const double both = area_of_two_polygons(kCorners);
+  TriangleMesh mesh = prism(kCorners, 1.0, 0.0, 1.0);
+  mesh.append(prism(kCorners, 1.0, 0.5, 1.5, kPi / kCorners));
   check_union(mesh, one + 0.5 * both, 0.5 * (2.0 * one - both));
   check_union(turned(mesh), one + 0.5 * both, 0.5 * (2.0 * one - both));
 }
 
 TEST_CASE("caps of many triangles that overlap by a millionth are found in cells of any size") {
-  const double one = area_of_polygon(kSides);
-  const double common = 2.0 * one - area_of_two_polygons(kSides);
-  TriangleMesh mesh = prism(kSides, 1.0, 0.0, 1.0);
-  mesh.append(prism(kSides, 1.0, 1.0 - 1e-6, 2.0, kPi / kSides));
+  const double one = area_of_polygon(kCorners);
+  const double common = 2.0 * one - area_of_two_polygons(kCorners);
+  TriangleMesh mesh = prism(kCorners, 1.0, 0.0, 1.0);
+  mesh.append(prism(kCorners, 1.0, 1.0 - 1e-6, 2.0, kPi / kCorners));
   check_union(turned(mesh), (2.0 + 1e-6) * one - 1e-6 * common, 1e-6 * common);
 }
 
 TEST_CASE("tips of many triangles that overlap are found in cells of any size") {
-  const double one = area_of_polygon(kSides);
+  const double one = area_of_polygon(kCorners);
   for (const double depth : {0.0, 0.01}) {
     CAPTURE(depth);
-    TriangleMesh mesh = round_body(kSides, {{0.0, -1.0}, {1.0, 0.0}, {0.0, 1.0}});
-    mesh.append(round_body(kSides, {{0.0, 1.0 - depth}, {1.0, 2.0 - depth}, {0.0, 3.0 - depth}}));
+    TriangleMesh mesh = round_body(kCorners, {{0.0, -1.0}, {1.0, 0.0}, {0.0, 1.0}});
+    mesh.append(round_body(kCorners, {{0.0, 1.0 - depth}, {1.0, 2.0 - depth}, {0.0, 3.0 - depth}}));
     const double common = 2.0 / 3.0 * one * std::pow(0.5 * depth, 3.0);
     check_union(mesh, 4.0 / 3.0 * one - common, common);
     if (depth > 0.0) {

@@ -153,7 +153,7 @@ TEST_CASE("instruction sets: the same bits from each, on any number of threads")
       for (const Side side : {Side::open, Side::mirror, Side::periodic, Side::empty, Side::full}) {
         Options options;
         options.placement = placement;
-        options.sides.fill(side);
+        options.boundary.fill(side);
         options.vertex_normals = true;
         options.edge_ids = true;
         check_all_sets<double>(each, options);

@@ -29,13 +29,13 @@ using difmesh::MollifyOptions;
 using difmesh::Side;
 using namespace difmesh::test;
 
-constexpr difmesh::Sides kAll(Side side) {
+constexpr difmesh::Boundary kAll(Side side) {
   return {side, side, side, side, side, side};
 }
 
 MollifyOptions with(Side side, double radius = 2.0) {
   MollifyOptions options;
-  options.sides = kAll(side);
+  options.boundary = kAll(side);
   options.radius = radius;
   return options;
 }
@@ -164,8 +164,8 @@ TEST_CASE("mollify: linear fields are kept away from the sides") {
 TEST_CASE("mollify: sides act one by one") {
   const OwnedField field({6, 6, 6}, 1.0);
   MollifyOptions options = with(Side::mirror);
-  options.sides[0] = Side::empty;
-  options.sides[3] = Side::full;
+  options.boundary[0] = Side::empty;
+  options.boundary[3] = Side::full;
   const Array<double> result = mollify(field.view(), options);
   for (std::int64_t n = 0; n < 6; ++n) {
     CHECK(result[element(field.dims, 0, n, 3)] < 1.0);
@@ -256,7 +256,7 @@ TEST_CASE("mollify: bad input is named") {
           std::string::npos);
   }
   options = {};
-  options.sides[4] = Side::periodic;
+  options.boundary[4] = Side::periodic;
   CHECK(failure_of(field.view(), options).first == ErrorCode::invalid_argument);
   CHECK(failure_of({}, {}).first == ErrorCode::invalid_grid);
   CHECK(failure_of(FieldView(nullptr, difmesh::ScalarType::float64, {2, 2, 2}, {1, 2, 4}), {})

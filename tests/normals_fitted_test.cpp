@@ -259,8 +259,8 @@ TEST_CASE(
     for (const Normals normals : {Normals::elvira, Normals::lvira}) {
       Options options;
       options.normals = normals;
-      options.sides = {difmesh::Side::periodic, difmesh::Side::periodic, difmesh::Side::mirror,
-                       difmesh::Side::open,     difmesh::Side::empty,    difmesh::Side::full};
+      options.boundary = {difmesh::Side::periodic, difmesh::Side::periodic, difmesh::Side::mirror,
+                          difmesh::Side::open,     difmesh::Side::empty,    difmesh::Side::full};
       options.threads = 1;
       const Fitted one = fit(field, grid, options);
       for (std::size_t c = 0; c < one.cells.size(); ++c) {
@@ -295,7 +295,7 @@ TEST_CASE("fitted normals: mirrors continue planes that stand at right angles to
   for (const Normals normals : {Normals::elvira, Normals::lvira}) {
     Options options;
     options.normals = normals;
-    options.sides[0] = options.sides[1] = difmesh::Side::mirror;
+    options.boundary[0] = options.boundary[1] = difmesh::Side::mirror;
     const Fitted fitted = fit(field, grid, options);
     std::size_t at_mirrors = 0;
     for (std::size_t c = 0; c < fitted.cells.size(); ++c) {

@@ -262,7 +262,7 @@ TEST_CASE("planes of cells have the same bits whether x runs through memory or n
          {difmesh::Normals::youngs, difmesh::Normals::myc, difmesh::Normals::height_function}) {
       Options options;
       options.normals = normals;
-      options.sides[0] = options.sides[1] = difmesh::Side::mirror;
+      options.boundary[0] = options.boundary[1] = difmesh::Side::mirror;
       std::vector<CellPlane> together(all.size());
       std::vector<CellPlane> alone(all.size());
       difmesh::cell_planes(field.view(), grid, all, options, together);

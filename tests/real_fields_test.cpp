@@ -59,7 +59,7 @@ std::optional<RealField> load_vortex() {
 
 Reconstruction run(const RealField& field, Side side, Placement placement = Placement::plic) {
   Options options;
-  options.sides.fill(side);
+  options.boundary.fill(side);
   options.placement = placement;
   return reconstruct(field.cells.view(), field.grid, options);
 }
@@ -172,7 +172,7 @@ TEST_CASE("real fields: blocks and slabs give the whole field to the last bit") 
     }
     for (const Side side : {Side::open, Side::empty}) {
       Options options;
-      options.sides.fill(side);
+      options.boundary.fill(side);
       options.edge_ids = true;
       options.vertex_normals = true;
       const Reconstruction whole = reconstruct(field->cells.view(), field->grid, options);

@@ -27,7 +27,7 @@ namespace {
 
 Options with_sides(Side side) {
   Options options;
-  options.sides.fill(side);
+  options.boundary.fill(side);
   return options;
 }
 
@@ -168,8 +168,9 @@ TEST_SUITE("reconstruct: bad input is named") {
     const OwnedField field({4, 4, 4});
     const Grid grid = unit_grid(field.dims);
     Options options;
-    options.sides[2] = Side::periodic;
-    CHECK(contains(reconstruct_error(field, grid, options), "10: options: sides in y: periodic"));
+    options.boundary[2] = Side::periodic;
+    CHECK(
+        contains(reconstruct_error(field, grid, options), "10: options: boundary in y: periodic"));
     options = {};
     options.threads = -1;
     CHECK(contains(reconstruct_error(field, grid, options), "10: options: threads"));
@@ -460,8 +461,8 @@ TEST_SUITE("reconstruct: symmetries") {
       first += flip[a] ? (plain.dims[b] - 1) * plain.strides[b] : 0;
       seen.spacing[a] = grid.spacing[b];
       seen.origin[a] = grid.origin[b];
-      options.sides[2 * a] = base.sides[2 * b + (flip[a] ? 1 : 0)];
-      options.sides[2 * a + 1] = base.sides[2 * b + (flip[a] ? 0 : 1)];
+      options.boundary[2 * a] = base.boundary[2 * b + (flip[a] ? 1 : 0)];
+      options.boundary[2 * a + 1] = base.boundary[2 * b + (flip[a] ? 0 : 1)];
     }
     view.data = field.values.data() + first;
     const auto moved = by_edge(reconstruct(view, seen, options).mesh);
@@ -498,10 +499,10 @@ TEST_SUITE("reconstruct: symmetries") {
   TEST_CASE("mirrors and permutations of the axes") {
     const OwnedField fields[] = {blob({22, 19, 17}), white_noise({9, 10, 11}, 21)};
     Options options;
-    options.sides = {Side::open, Side::empty, Side::mirror, Side::open, Side::full, Side::open};
+    options.boundary = {Side::open, Side::empty, Side::mirror, Side::open, Side::full, Side::open};
     Options periodic;
-    periodic.sides = {Side::open,     Side::empty,  Side::periodic,
-                      Side::periodic, Side::mirror, Side::open};
+    periodic.boundary = {Side::open,     Side::empty,  Side::periodic,
+                         Side::periodic, Side::mirror, Side::open};
     Options open;
     for (const OwnedField& field : fields) {
       const Grid grid{field.dims, {0.3, -0.2, 0.7}, {0.1, 0.13, 0.08}};
@@ -663,14 +664,14 @@ TEST_SUITE("reconstruct: sides") {
       for (const bool full : {false, true}) {
         const OwnedField field({6, 6, 6}, full ? 1.0 - smear : smear);
         Options options;
-        options.sides[4] = full ? Side::full : Side::empty;
+        options.boundary[4] = full ? Side::full : Side::empty;
         CHECK(reconstruct(field.view(), unit_grid(field.dims), options).mesh.triangles.empty());
         OwnedField around = blob({24, 24, 24});
         for (double& value : around.values) {
           value = std::clamp(value, smear, 1.0 - smear);
         }
-        options.sides = {Side::periodic, Side::periodic, Side::open,
-                         Side::mirror,   Side::open,     Side::empty};
+        options.boundary = {Side::periodic, Side::periodic, Side::open,
+                            Side::mirror,   Side::open,     Side::empty};
         CHECK(reconstruct(around.view(), unit_grid(around.dims), options).report.closed);
       }
     }

@@ -228,7 +228,7 @@ TEST_CASE("smoothing: noise stays finite and gives the same bits on any number o
       default:
         return difmesh::smooth_by_curvature_flow(
             mesh.positions, mesh.triangles,
-            {.steps = 2, .time = 0.1, .tolerance = 1e-4, .threads = threads});
+            {.steps = 2, .time = 0.1, .residual = 1e-4, .threads = threads});
     }
   };
   for (int kind = 0; kind < 3; ++kind) {
@@ -271,7 +271,7 @@ TEST_CASE("smoothing: bad input is named") {
   CHECK(code_of([&] { taubin(mesh, {.lambda = 1.0, .pass_band = 0.1}); }, "do not go together") ==
         invalid);
   CHECK(code_of([&] { flow(mesh, {.time = 0.0}); }, "time must be above 0") == invalid);
-  CHECK(code_of([&] { flow(mesh, {.tolerance = 0.0}); }, "tolerance must be") == invalid);
+  CHECK(code_of([&] { flow(mesh, {.residual = 0.0}); }, "residual must be") == invalid);
   TriangleMesh broken = mesh;
   broken.triangles[5][2] = 99;
   CHECK(code_of([&] { laplacian(broken, {}); }, "triangle 5 refers to vertex 99") == invalid);

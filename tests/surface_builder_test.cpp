@@ -36,7 +36,7 @@ void check_all_cuts(const OwnedField& field, Options options) {
   options.edge_ids = true;
   const Reconstruction whole = reconstruct(field.view(), grid, options);
   REQUIRE(whole.mesh.triangles.size() > 100);
-  CAPTURE(static_cast<int>(options.sides[4]));
+  CAPTURE(static_cast<int>(options.boundary[4]));
   CAPTURE(static_cast<int>(options.placement));
   for (const std::int64_t at_once : {1, 2, 3, 8}) {
     for (const std::int64_t thickness : {1, 2, 5, 12, 100}) {
@@ -51,7 +51,7 @@ void check_all_cuts(const OwnedField& field, Options options) {
 
 Options with_sides(Side x, Side y, Side z_low, Side z_high) {
   Options options;
-  options.sides = {x, x, y, y, z_low, z_high};
+  options.boundary = {x, x, y, y, z_low, z_high};
   return options;
 }
 
@@ -107,11 +107,11 @@ TEST_CASE("builder: random fields in random slabs") {
     options.normals = static_cast<Normals>(below(5));
     const Index3 dims{1 + below(5), 1 + below(5), 1 + below(30)};
     for (std::size_t side = 0; side < 6; ++side) {
-      options.sides[side] = static_cast<Side>(below(5));
+      options.boundary[side] = static_cast<Side>(below(5));
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      Side& low = options.sides[2 * axis];
-      Side& high = options.sides[2 * axis + 1];
+      Side& low = options.boundary[2 * axis];
+      Side& high = options.boundary[2 * axis + 1];
       if (low == Side::periodic || high == Side::periodic) {
         low = high = axis == 2 ? Side::open : Side::periodic;
       }
@@ -143,7 +143,7 @@ TEST_CASE("builder: a part is the block, and with wrapped ghosts the periodic wh
   Options options;
   options.edge_ids = true;
   for (const Side side : {Side::open, Side::periodic}) {
-    options.sides.fill(side);
+    options.boundary.fill(side);
     BuilderOptions how;
     how.layers_at_once = 2;
     const test::BlockData data = test::cut_out(field, {2, 3, 7}, {7, 8, 25}, options);
@@ -306,7 +306,7 @@ TEST_CASE("builder: wrong calls are named and end it") {
   CHECK(test::difference(builder.finish(), reconstruct(field.view(), grid).report) == "");
 
   Options periodic;
-  periodic.sides.fill(Side::periodic);
+  periodic.boundary.fill(Side::periodic);
   SurfaceBuilder wraps(grid, periodic, ignore);
   CHECK(error_of([&] {
           wraps.add(field.view().sub({0, 0, 0}, {6, 5, 3}));
@@ -324,4 +324,17 @@ TEST_CASE("builder: wrong calls are named and end it") {
         }) == error_of([&] { (void)reconstruct(bad.view(), grid); }));
   CHECK(error_of([&] { (void)ended.finish(); }) == "builder: an earlier call failed");
   CHECK(error_of([&] { ended.add(bad.view()); }) == "builder: an earlier call failed");
+}
+
+TEST_CASE("builder: fractions below all normal numbers add up as in the whole") {
+  const Index3 dims{1, 1, 40};
+  const Grid grid{dims, {0.0, 0.0, 0.0}, {1.0, 1.0, 2.3}};
+  const OwnedField field(dims, 4.9406564584124654e-324);
+  const Report whole = reconstruct(field.view(), grid).report;
+  // The sum is rounded once, not each cell's share.
+  CHECK(whole.fraction_volume == 40 * 4.9406564584124654e-324 * 2.3);
+  for (const std::int64_t thickness : {1, 7}) {
+    const Report report = test::in_slabs(field.view(), grid, {}, thickness).report;
+    CHECK(report.fraction_volume == whole.fraction_volume);
+  }
 }

@@ -25,7 +25,7 @@ void check_blocks(const OwnedField& field, const Index3& cut, Options options) {
   options.vertex_normals = true;
   const Reconstruction whole = reconstruct(field.view(), grid, options);
   REQUIRE(whole.mesh.triangles.size() > 100);
-  CAPTURE(static_cast<int>(options.sides[0]));
+  CAPTURE(static_cast<int>(options.boundary[0]));
   CAPTURE(static_cast<int>(options.placement));
   CAPTURE(cut[0]);
   const Reconstruction joined = test::in_blocks(field, grid, cut, options);
@@ -50,12 +50,12 @@ TEST_CASE("weld: eight uneven blocks are the whole field to the last bit") {
   for (const OwnedField& field : fields) {
     for (const Side side : {Side::open, Side::mirror, Side::periodic, Side::empty, Side::full}) {
       Options options;
-      options.sides.fill(side);
+      options.boundary.fill(side);
       check_blocks(field, {7, 9, 6}, options);
     }
     Options mixed;
-    mixed.sides = {Side::open,     Side::empty, Side::periodic,
-                   Side::periodic, Side::full,  Side::mirror};
+    mixed.boundary = {Side::open,     Side::empty, Side::periodic,
+                      Side::periodic, Side::full,  Side::mirror};
     check_blocks(field, {6, 5, 8}, mixed);
   }
 }
@@ -64,7 +64,7 @@ TEST_CASE("weld: blocks thinner than their ghosts and cuts along one axis only")
   const OwnedField field = test::white_noise({9, 8, 7}, 5);
   for (const Side side : {Side::open, Side::mirror, Side::periodic, Side::empty}) {
     Options options;
-    options.sides.fill(side);
+    options.boundary.fill(side);
     check_blocks(field, {1, 2, 6}, options);
     check_blocks(field, {9, 8, 3}, options);
     check_blocks(field, {4, 8, 7}, options);
@@ -130,10 +130,10 @@ TEST_CASE("weld: the whole to the last bit of fields that are nearly pure howeve
       }
       const bool is_open = below(2) == 0;
       for (std::size_t high = 0; high < 2; ++high) {
-        options.sides[2 * a + high] = is_open ? Side::open : static_cast<Side>(below(5));
+        options.boundary[2 * a + high] = is_open ? Side::open : static_cast<Side>(below(5));
       }
-      Side& low_side = options.sides[2 * a];
-      Side& high_side = options.sides[2 * a + 1];
+      Side& low_side = options.boundary[2 * a];
+      Side& high_side = options.boundary[2 * a + 1];
       if ((low_side == Side::periodic) != (high_side == Side::periodic)) {
         low_side = high_side = Side::periodic;
       }

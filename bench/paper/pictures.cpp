@@ -24,7 +24,7 @@ struct Sheet {
   Body body;
   double cells = 0.0;
   std::vector<std::string> ways;
-  std::string colour;  ///< scalars to colour by; empty: none
+  std::string color;   ///< scalars to colour by; empty: none
   double range = 0.0;  ///< of the colours, on both sides of 0
   std::string range_text;
   double zoom = 1.0;
@@ -61,8 +61,8 @@ Json draw(const Run& run, const std::filesystem::path& folder, const Sheet& shee
     mesh.scalars = scalars_of(sheet.body, mesh);
     (void)write_mesh(folder / file, mesh);
     panels.push_back({{"file", file},
-                      {"caption", name + (sheet.colour.empty() ? "" : ", " + sheet.range_text)},
-                      {"colour", sheet.colour},
+                      {"caption", name + (sheet.color.empty() ? "" : ", " + sheet.range_text)},
+                      {"color", sheet.color},
                       {"range", sheet.range}});
   }
   return {{"name", sheet.name},

@@ -1,5 +1,6 @@
 // Draws the pictures of a run: meshes by `difmesh view` in Chromium, side by side on sheets with
-//   captions. node pictures.mjs NPM-FOLDER DIFMESH CHROMIUM FOLDER
+// captions.
+//   node pictures.mjs NPM-FOLDER DIFMESH CHROMIUM FOLDER
 // reads FOLDER/pictures/sheets.json, writes FOLDER/*.jpg.
 
 import {execFileSync} from 'node:child_process';
@@ -18,12 +19,12 @@ const browser = await playwright.chromium.launch({executablePath: chromium, args
   '--disable-component-update', '--disable-sync', '--enable-unsafe-swiftshader']});
 
 /// A surface by itself, as PNG.
-async function picture({file, colour, range}, {size, zoom, from, raking}) {
+async function picture({file, color, range}, {size, zoom, from, raking}) {
   const page = join(folder, 'pictures', `${file}.html`);
-  const colours = colour ? ['--color-by', colour, '--color-map', 'cool_warm', '--color-range',
+  const colors = color ? ['--color-by', color, '--color-map', 'cool_warm', '--color-range',
     `${-range},${range}`] : [];
   execFileSync(difmesh, ['view', join(folder, 'pictures', file), '-o', page, '--quiet',
-    ...colours]);
+    ...colors]);
   const tab = await browser.newPage({viewport: {width: size, height: size}, deviceScaleFactor: 2});
   await tab.goto(pathToFileURL(resolve(page)).href);
   await tab.waitForSelector('body[data-state]', {state: 'attached', timeout: 60000});

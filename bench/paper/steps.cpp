@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdio>
 
+#include "difmesh/names.hpp"
 #include "difmesh/reconstruct.hpp"
 #include "for_each_case.hpp"
 #include "run.hpp"
@@ -93,10 +94,6 @@ std::string steps_text(const std::array<double, kGuesses.size()>& steps) {
   return text;
 }
 
-const char* name_of(Normals normals) {
-  return normals == Normals::myc ? "myc" : "height_function";
-}
-
 void claim_one_place(Run& run, const Case& one, std::size_t edges, const Summary& found) {
   const auto lost = static_cast<double>(found.without_arrival + found.several);
   const double share = 100.0 * (1.0 - lost / static_cast<double>(edges));
@@ -111,8 +108,8 @@ void claim_one_place(Run& run, const Case& one, std::size_t edges, const Summary
 
 void add_row(Run& run, const Case& one, const Iteration& iteration, Table& table) {
   const auto [normals, tolerance] = iteration;
-  std::fprintf(stderr, "paper: Algorithm 1, %s, %s, %g\n", one.body.name.c_str(), name_of(normals),
-               tolerance);
+  std::fprintf(stderr, "paper: Algorithm 1, %s, %s, %g\n", one.body.name.c_str(),
+               name_of(kNormals, normals).data(), tolerance);
   const Sample at = sample(one.body, one.cells, 0, run.threads);
   Options options;
   options.normals = normals;
@@ -125,9 +122,9 @@ void add_row(Run& run, const Case& one, const Iteration& iteration, Table& table
     ours[e] = test::share_along(edges[e], mesh.edge_ids[e], at.grid, mesh.positions[e]);
   }
   const Summary found = summarise(iterate(edges, tolerance, run.threads), ours);
-  table.add({one.body.name, one.body.unit + "/dx = " + number(one.cells), name_of(normals),
-             number(tolerance, 2), std::to_string(edges.size()), steps_text(found.mean_steps),
-             one.printed, number(report.newton_steps_mean, 3),
+  table.add({one.body.name, one.body.unit + "/dx = " + number(one.cells),
+             name_of(kNormals, normals).data(), number(tolerance, 2), std::to_string(edges.size()),
+             steps_text(found.mean_steps), one.printed, number(report.newton_steps_mean, 3),
              std::to_string(report.newton_steps_max), std::to_string(found.without_arrival),
              std::to_string(found.several), number(found.spread, 2), number(found.away, 2)});
   if (normals == Normals::height_function && tolerance == 1e-12) {

@@ -10,7 +10,7 @@ module difmesh_fractions
   implicit none
   private
 
-  public :: dif_level_set, dif_sample_function, dif_sample_shape, dif_sample_mesh
+  public :: dif_level_set, dif_fractions_of_function, dif_fractions_of_shape, dif_fractions_of_mesh
   public :: dif_plane_fractions, dif_plane_offsets
 
   abstract interface
@@ -31,7 +31,7 @@ contains
   ! Fractions of {f < 0} into fractions(nx, ny, nz); see dif_fractions_from_function in difmesh.h.
   ! f is called on one thread, unless options say otherwise. A section that is not contiguous is
   ! filled by way of a temporary array, here and in the other dif_sample_...
-  subroutine dif_sample_function(grid, f, fractions, status, options, report, message)
+  subroutine dif_fractions_of_function(grid, f, fractions, status, options, report, message)
     type(dif_grid), intent(in) :: grid
     procedure(dif_level_set) :: f
     real(c_double), intent(inout), contiguous :: fractions(:, :, :)
@@ -63,7 +63,7 @@ contains
     relay = 0
   end function
 
-  subroutine dif_sample_shape(grid, shape, fractions, status, options, report, message)
+  subroutine dif_fractions_of_shape(grid, shape, fractions, status, options, report, message)
     type(dif_grid), intent(in) :: grid
     type(dif_shape), intent(in) :: shape
     real(c_double), intent(inout), contiguous :: fractions(:, :, :)
@@ -79,7 +79,7 @@ contains
 
   ! Exact fractions of the inside of a closed mesh. Where its parts overlap, options%overlaps
   ! decides; the report says how much and where.
-  subroutine dif_sample_mesh(grid, mesh, fractions, status, options, report, message)
+  subroutine dif_fractions_of_mesh(grid, mesh, fractions, status, options, report, message)
     type(dif_grid), intent(in) :: grid
     type(dif_mesh), intent(in) :: mesh
     real(c_double), intent(inout), contiguous :: fractions(:, :, :)

@@ -455,18 +455,18 @@ contains
   end subroutine
 
   ! To .ply (double precision), .obj, .off, .stl, .glb, .gltf or .drc, by the extension or by
-  ! `format`, such as 'ply'. `colour_by`, the name of scalars, and `name` are for glTF; all three
+  ! `format`, such as 'ply'. `color_by`, the name of scalars, and `name` are for glTF; all three
   ! come before those of the options. `report` tells what was written; if that fails it is as
   ! dif_init leaves it. `warning` is what a user should know though the file is there, or ''; up to
   ! 1000 characters.
-  subroutine write_file(mesh, path, status, options, message, colour_by, name, report, format, &
+  subroutine write_file(mesh, path, status, options, message, color_by, name, report, format, &
     warning)
     class(dif_mesh), intent(in) :: mesh
     character(*), intent(in) :: path
     integer(c_int32_t), intent(out) :: status
     type(dif_mesh_write_options), intent(in), optional :: options
     character(*), intent(inout), optional :: message
-    character(*), intent(in), optional :: colour_by, name, format
+    character(*), intent(in), optional :: color_by, name, format
     type(dif_mesh_write_report), intent(out), optional :: report
     character(*), intent(out), optional :: warning
     type(dif_mesh_write_report) :: facts
@@ -474,9 +474,9 @@ contains
     character(kind=c_char), allocatable, target :: scalars(:), title(:), extension(:)
     call dif_init(given)
     if (present(options)) given = options
-    if (present(colour_by)) then
-      scalars = to_c(colour_by)
-      given%colour_by = c_loc(scalars)
+    if (present(color_by)) then
+      scalars = to_c(color_by)
+      given%color_by = c_loc(scalars)
     end if
     if (present(format)) then
       extension = to_c(format)

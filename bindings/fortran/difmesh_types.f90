@@ -107,9 +107,9 @@ module difmesh_types
     dif_draco_sequential = 2
 
   integer(c_int32_t), parameter, public :: &
-    dif_colour_map_default = 0, &
-    dif_colour_map_viridis = 1, &
-    dif_colour_map_cool_warm = 2
+    dif_color_map_default = 0, &
+    dif_color_map_viridis = 1, &
+    dif_color_map_cool_warm = 2
 
   integer(c_int32_t), parameter, public :: &
     dif_up_default = 0, &
@@ -123,35 +123,35 @@ module difmesh_types
 
   integer(c_int64_t), parameter, public :: &
     dif_version_major = 0, &
-    dif_version_minor = 1, &
+    dif_version_minor = 2, &
     dif_version_patch = 0, &
     dif_ghost_layers = 5
 
   type, bind(c), public :: dif_field
     integer(c_int64_t) :: struct_size = 0
     type(c_ptr) :: data = c_null_ptr
-    integer(c_int32_t) :: type = 0
-    integer(c_int32_t) :: reserved = 0
     integer(c_int64_t) :: dims(3) = 0
     integer(c_int64_t) :: strides(3) = 0
     real(c_double) :: origin(3) = 0
     real(c_double) :: spacing(3) = 0
+    integer(c_int32_t) :: type = 0
+    integer(c_int32_t) :: reserved = 0
   end type
 
   type, bind(c), public :: dif_options
     integer(c_int64_t) :: struct_size = 0
     integer(c_int32_t) :: placement = 0
     integer(c_int32_t) :: normals = 0
-    integer(c_int32_t) :: sides(6) = 0
+    integer(c_int32_t) :: boundary(6) = 0
     integer(c_int32_t) :: vertex_normals = 0
     integer(c_int32_t) :: edge_ids = 0
     real(c_double) :: purity_tolerance = 0
     real(c_double) :: overshoot_bound = 0
     real(c_double) :: clearance = 0
-    integer(c_int32_t) :: threads = 0
-    integer(c_int32_t) :: reserved = 0
     type(c_funptr) :: progress = c_null_funptr
     type(c_ptr) :: progress_user = c_null_ptr
+    integer(c_int32_t) :: threads = 0
+    integer(c_int32_t) :: reserved = 0
   end type
 
   type, bind(c), public :: dif_report
@@ -169,14 +169,14 @@ module difmesh_types
     integer(c_int64_t) :: newton_steps_max = 0
     integer(c_int64_t) :: non_monotone_edges = 0
     real(c_double) :: enclosed_volume = 0
-    integer(c_int32_t) :: closed = 0
-    integer(c_int32_t) :: reserved = 0
     real(c_double) :: seconds_classify = 0
     real(c_double) :: seconds_normals = 0
     real(c_double) :: seconds_count = 0
     real(c_double) :: seconds_vertices = 0
     real(c_double) :: seconds_triangles = 0
     real(c_double) :: seconds_total = 0
+    integer(c_int32_t) :: closed = 0
+    integer(c_int32_t) :: reserved = 0
   end type
 
   type, bind(c), public :: dif_plane_arrays
@@ -203,10 +203,10 @@ module difmesh_types
     integer(c_int64_t) :: max_calls_per_cell = 0
     type(c_funptr) :: gradient = c_null_funptr
     type(c_ptr) :: gradient_user = c_null_ptr
-    integer(c_int32_t) :: threads = 0
-    integer(c_int32_t) :: reserved = 0
     type(c_funptr) :: progress = c_null_funptr
     type(c_ptr) :: progress_user = c_null_ptr
+    integer(c_int32_t) :: threads = 0
+    integer(c_int32_t) :: reserved = 0
   end type
 
   type, bind(c), public :: dif_function_report
@@ -229,11 +229,9 @@ module difmesh_types
     integer(c_int32_t) :: flip = 0
     integer(c_int32_t) :: check_edges = 0
     integer(c_int32_t) :: threads = 0
-    integer(c_int32_t) :: reserved = 0
+    integer(c_int32_t) :: overlaps = 0
     type(c_funptr) :: progress = c_null_funptr
     type(c_ptr) :: progress_user = c_null_ptr
-    integer(c_int32_t) :: overlaps = 0
-    integer(c_int32_t) :: reserved_2 = 0
   end type
 
   type, bind(c), public :: dif_triangle_report
@@ -262,8 +260,6 @@ module difmesh_types
 
   type, bind(c), public :: dif_shape_options
     integer(c_int64_t) :: struct_size = 0
-    integer(c_int32_t) :: kind = 0
-    integer(c_int32_t) :: reserved = 0
     real(c_double) :: centre(3) = 0
     real(c_double) :: rotation_degrees(3) = 0
     real(c_double) :: radius = 0
@@ -274,16 +270,18 @@ module difmesh_types
     integer(c_int64_t) :: dimples = 0
     real(c_double) :: dimple_radius = 0
     real(c_double) :: dimple_depth = 0
+    integer(c_int32_t) :: kind = 0
+    integer(c_int32_t) :: reserved = 0
   end type
 
   type, bind(c), public :: dif_mollify_options
     integer(c_int64_t) :: struct_size = 0
     real(c_double) :: radius = 0
-    integer(c_int32_t) :: sides(6) = 0
-    integer(c_int32_t) :: threads = 0
-    integer(c_int32_t) :: reserved = 0
     type(c_funptr) :: progress = c_null_funptr
     type(c_ptr) :: progress_user = c_null_ptr
+    integer(c_int32_t) :: boundary(6) = 0
+    integer(c_int32_t) :: threads = 0
+    integer(c_int32_t) :: reserved = 0
   end type
 
   type, bind(c), public :: dif_measure
@@ -378,9 +376,9 @@ module difmesh_types
     integer(c_int32_t) :: position_bits = 0
     integer(c_int32_t) :: normal_bits = 0
     integer(c_int32_t) :: generic_bits = 0
-    integer(c_int32_t) :: colour_map = 0
-    type(c_ptr) :: colour_by = c_null_ptr
-    real(c_double) :: colour_range(2) = 0
+    integer(c_int32_t) :: color_map = 0
+    type(c_ptr) :: color_by = c_null_ptr
+    real(c_double) :: color_range(2) = 0
     real(c_double) :: cell_size = 0
     real(c_double) :: metres_per_unit = 0
     real(c_double) :: local_origin(3) = 0
@@ -396,12 +394,12 @@ module difmesh_types
     integer(c_int64_t) :: vertices = 0
     integer(c_int64_t) :: triangles = 0
     integer(c_int64_t) :: primitives = 0
-    integer(c_int32_t) :: position_bits = 0
-    integer(c_int32_t) :: reserved = 0
     real(c_double) :: position_error = 0
     real(c_double) :: local_origin(3) = 0
     integer(c_int64_t) :: collapsed_triangles = 0
     type(c_ptr) :: warning = c_null_ptr
+    integer(c_int32_t) :: position_bits = 0
+    integer(c_int32_t) :: reserved = 0
   end type
 
   type, bind(c), public :: dif_mesh_read_options

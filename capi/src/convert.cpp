@@ -7,15 +7,10 @@ constexpr char kAxisNames[] = "xyz";
 // Three sums of offsets this large stay below 2^63.
 constexpr std::int64_t kMostOffset = std::int64_t{1} << 60;
 
-constexpr std::array kPlacements{Placement::midpoint, Placement::linear, Placement::manson,
-                                 Placement::plic};
-constexpr std::array kNormals{Normals::youngs, Normals::myc, Normals::height_function,
-                              Normals::elvira, Normals::lvira};
-constexpr std::array kSides{Side::open, Side::mirror, Side::periodic, Side::empty, Side::full};
 /// The C constants of the value types, in their order.
-constexpr std::array<std::int32_t, 10> kValueTypes{DIF_FLOAT32, DIF_FLOAT64, DIF_UINT8, DIF_UINT16,
-                                                   DIF_INT8,    DIF_INT16,   DIF_INT32, DIF_UINT32,
-                                                   DIF_INT64,   DIF_UINT64};
+constexpr std::array<std::int32_t, 10> kElementTypes{
+    DIF_FLOAT32, DIF_FLOAT64, DIF_UINT8,  DIF_UINT16, DIF_INT8,
+    DIF_INT16,   DIF_INT32,   DIF_UINT32, DIF_INT64,  DIF_UINT64};
 constexpr std::ptrdiff_t kScalarTypes = 4;  // the first of them
 
 dif_field read_field_struct(const dif_field* field) {
@@ -67,34 +62,34 @@ void require_zero(std::int32_t reserved, const char* struct_name) {
 }
 
 ScalarType to_scalar_type(std::int32_t type) {
-  const auto known = std::find(kValueTypes.begin(), kValueTypes.end(), type);
-  if (known != kValueTypes.end() && known - kValueTypes.begin() >= kScalarTypes) {
+  const auto known = std::find(kElementTypes.begin(), kElementTypes.end(), type);
+  if (known != kElementTypes.end() && known - kElementTypes.begin() >= kScalarTypes) {
     fail_argument("type is " + std::to_string(type) + ", that of values, of which " +
                   "dif_fractions_from_values() and dif_fractions_from_labels() make fractions");
   }
-  if (known == kValueTypes.end()) {
+  if (known == kElementTypes.end()) {
     fail_argument("type is " + std::to_string(type) +
                   "; DIF_FLOAT32, DIF_FLOAT64, DIF_UINT8 and DIF_UINT16 are possible");
   }
-  return static_cast<ScalarType>(known - kValueTypes.begin());
+  return static_cast<ScalarType>(known - kElementTypes.begin());
 }
 
 std::int32_t from_scalar_type(ScalarType type) {
-  return kValueTypes[static_cast<std::size_t>(type)];
+  return kElementTypes[static_cast<std::size_t>(type)];
 }
 
 ValueType to_value_type(std::int32_t type) {
-  const auto known = std::find(kValueTypes.begin(), kValueTypes.end(), type);
-  if (known == kValueTypes.end()) {
+  const auto known = std::find(kElementTypes.begin(), kElementTypes.end(), type);
+  if (known == kElementTypes.end()) {
     fail_argument("type is " + std::to_string(type) +
                   "; DIF_FLOAT32, DIF_FLOAT64, DIF_INT8 to DIF_INT64 and DIF_UINT8 to DIF_UINT64 "
                   "are possible");
   }
-  return static_cast<ValueType>(known - kValueTypes.begin());
+  return static_cast<ValueType>(known - kElementTypes.begin());
 }
 
 std::int32_t from_value_type(ValueType type) {
-  return kValueTypes[static_cast<std::size_t>(type)];
+  return kElementTypes[static_cast<std::size_t>(type)];
 }
 
 Progress to_progress(dif_progress progress, void* user) {
@@ -162,12 +157,13 @@ Grid to_grid(const dif_grid* grid) {
   return result;
 }
 
-Sides to_sides(const std::int32_t (&from)[6]) {
-  Sides sides{};
+Boundary to_boundary(const std::int32_t (&from)[6]) {
+  Boundary boundary{};
   for (std::size_t side = 0; side < 6; ++side) {
-    sides[side] = to_choice(from[side], Side::open, kSides, "sides[" + std::to_string(side) + "]");
+    boundary[side] =
+        to_choice(from[side], Side::open, kSides, "boundary[" + std::to_string(side) + "]");
   }
-  return sides;
+  return boundary;
 }
 
 Options to_options(const dif_options* options) {
@@ -176,7 +172,7 @@ Options to_options(const dif_options* options) {
   const dif_options given = read_struct(options, defaults, "options");
   require_zero(given.reserved, "options");
   Options result;
-  result.sides = to_sides(given.sides);
+  result.boundary = to_boundary(given.boundary);
   result.placement = to_choice(given.placement, result.placement, kPlacements, "placement");
   result.normals = to_choice(given.normals, result.normals, kNormals, "normals");
   result.vertex_normals = to_bool(given.vertex_normals, "vertex_normals");

@@ -10,6 +10,7 @@
 #include "difmesh/error.hpp"
 #include "difmesh/field_view.hpp"
 #include "difmesh/grid.hpp"
+#include "difmesh/names.hpp"
 #include "difmesh/options.hpp"
 #include "difmesh/values.hpp"
 
@@ -17,11 +18,13 @@ namespace difmesh::capi {
 
 /// \throw Error invalid_argument, naming the option
 [[nodiscard]] bool to_bool(std::int32_t value, const char* name);
-/// The C++ constant of a C one: 0 is the default, the others follow from 1 on.
+/// The C++ constant of a C one: 0 is the default, the others follow from 1 on in the order of their
+/// names.
 /// \throw Error invalid_argument, naming the option
 template <class Enum, std::size_t count>
 [[nodiscard]] Enum to_choice(std::int32_t value, Enum default_value,
-                             const std::array<Enum, count>& choices, const std::string& name) {
+                             const std::array<Named<Enum>, count>& choices,
+                             const std::string& name) {
   if (value == 0) {
     return default_value;
   }
@@ -29,7 +32,7 @@ template <class Enum, std::size_t count>
     fail_argument(name + " is " + std::to_string(value) + "; 0 to " + std::to_string(count) +
                   " are possible");
   }
-  return choices[static_cast<std::size_t>(value - 1)];
+  return choices[static_cast<std::size_t>(value - 1)].value;
 }
 void require_zero(std::int32_t reserved, const char* struct_name);
 [[nodiscard]] ScalarType to_scalar_type(std::int32_t type);
@@ -55,7 +58,7 @@ struct Field {
 /// The same of values, whose type may be any.
 [[nodiscard]] ValueView to_values(const dif_field* values);
 [[nodiscard]] Grid to_grid(const dif_grid* grid);
-[[nodiscard]] Sides to_sides(const std::int32_t (&from)[6]);
+[[nodiscard]] Boundary to_boundary(const std::int32_t (&from)[6]);
 [[nodiscard]] Options to_options(const dif_options* options);
 
 /// Strides whose offsets, in bytes, do not fit into 62 bits are refused.

@@ -1,4 +1,4 @@
-#include "difmesh/distance.hpp"
+#include "difmesh/metrics/distance.hpp"
 
 #include <algorithm>
 

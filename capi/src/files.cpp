@@ -6,6 +6,7 @@
 #include "boundary.hpp"
 #include "convert.hpp"
 #include "difmesh/io/field_file.hpp"
+#include "difmesh/io/names.hpp"
 
 namespace capi = difmesh::capi;
 
@@ -15,8 +16,6 @@ struct dif_field_file {
 
 namespace {
 
-constexpr std::array kFieldFormats{difmesh::FieldFormat::npy, difmesh::FieldFormat::nrrd};
-
 difmesh::WriteFieldOptions to_options(const dif_field_write_options* options) {
   dif_field_write_options defaults{};
   dif_field_write_options_init(&defaults, sizeof defaults);
@@ -24,7 +23,7 @@ difmesh::WriteFieldOptions to_options(const dif_field_write_options* options) {
   difmesh::WriteFieldOptions result;
   if (given.format != DIF_FIELD_FORMAT_BY_EXTENSION) {
     result.format =
-        capi::to_choice(given.format, difmesh::FieldFormat::npy, kFieldFormats, "format");
+        capi::to_choice(given.format, difmesh::FieldFormat::npy, difmesh::kFieldFormats, "format");
   }
   if (given.type != 0) {
     result.type = capi::to_scalar_type(given.type);

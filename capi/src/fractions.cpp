@@ -69,29 +69,13 @@ dif_function_report to_report(const difmesh::FractionsFromFunctionReport& report
   return result;
 }
 
-difmesh::Overlaps to_overlaps(std::int32_t overlaps) {
-  switch (overlaps) {
-    case DIF_OVERLAPS_DEFAULT:
-    case DIF_OVERLAPS_UNION:
-      return difmesh::Overlaps::unite;
-    case DIF_OVERLAPS_REFUSE:
-      return difmesh::Overlaps::refuse;
-    case DIF_OVERLAPS_COUNT:
-      return difmesh::Overlaps::count;
-    default:
-      capi::fail_argument("options: overlaps is " + std::to_string(overlaps) +
-                          ", which is none of DIF_OVERLAPS_...");
-  }
-}
-
 difmesh::FractionsFromMeshOptions to_options(const dif_triangle_options* options) {
   dif_triangle_options defaults{};
   dif_triangle_options_init(&defaults, sizeof defaults);
   const dif_triangle_options given = capi::read_struct(options, defaults, "options");
-  capi::require_zero(given.reserved, "options");
-  capi::require_zero(given.reserved_2, "options");
   difmesh::FractionsFromMeshOptions result;
-  result.overlaps = to_overlaps(given.overlaps);
+  result.overlaps =
+      capi::to_choice(given.overlaps, difmesh::Overlaps::unite, difmesh::kOverlaps, "overlaps");
   result.tolerance = given.tolerance;
   result.flip = capi::to_bool(given.flip, "flip");
   result.check_edges = capi::to_bool(given.check_edges, "check_edges");

@@ -6,19 +6,12 @@
 #include "boundary.hpp"
 #include "convert.hpp"
 #include "difmesh/io/mesh_file.hpp"
+#include "difmesh/io/names.hpp"
 #include "handles.hpp"
 
 namespace capi = difmesh::capi;
 
 namespace {
-
-using difmesh::ColourMap;
-using difmesh::DracoMethod;
-using difmesh::UpAxis;
-
-constexpr std::array kDracoMethods{DracoMethod::edgebreaker, DracoMethod::sequential};
-constexpr std::array kColourMaps{ColourMap::viridis, ColourMap::cool_warm};
-constexpr std::array kUpAxes{UpAxis::y, UpAxis::z};
 
 difmesh::DracoOptions to_draco(const dif_mesh_write_options& given) {
   difmesh::DracoOptions draco;
@@ -27,18 +20,19 @@ difmesh::DracoOptions to_draco(const dif_mesh_write_options& given) {
   draco.normal_bits = given.normal_bits;
   draco.generic_bits = given.generic_bits;
   draco.speed = given.draco_speed;
-  draco.method = capi::to_choice(given.draco_method, draco.method, kDracoMethods, "draco_method");
+  draco.method =
+      capi::to_choice(given.draco_method, draco.method, difmesh::kDracoMethods, "draco_method");
   return draco;
 }
 
-difmesh::ColourBy to_colour(const dif_mesh_write_options& given) {
-  difmesh::ColourBy colour{.scalars = given.colour_by};
-  colour.map = capi::to_choice(given.colour_map, colour.map, kColourMaps, "colour_map");
-  const std::array<double, 2> range{given.colour_range[0], given.colour_range[1]};
+difmesh::ColorBy to_color(const dif_mesh_write_options& given) {
+  difmesh::ColorBy color{.scalars = given.color_by};
+  color.map = capi::to_choice(given.color_map, color.map, difmesh::kColorMaps, "color_map");
+  const std::array<double, 2> range{given.color_range[0], given.color_range[1]};
   if (range != std::array<double, 2>{0.0, 0.0}) {
-    colour.range = range;
+    color.range = range;
   }
-  return colour;
+  return color;
 }
 
 /// Draco's options are for formats that are always compressed too, without `draco`.
@@ -59,13 +53,13 @@ difmesh::WriteMeshOptions to_options(const char* path, const dif_mesh_write_opti
   result.normals = capi::to_bool(given.normals, "normals");
   result.edge_ids = capi::to_bool(given.edge_ids, "edge_ids");
   result.scalars = capi::to_bool(given.scalars, "scalars");
-  if (given.colour_by != nullptr) {
-    result.colour = to_colour(given);
+  if (given.color_by != nullptr) {
+    result.color = to_color(given);
   }
   if (wants_draco(given, path, result.format)) {
     result.draco = to_draco(given);
   }
-  result.up = capi::to_choice(given.up, result.up, kUpAxes, "up");
+  result.up = capi::to_choice(given.up, result.up, difmesh::kUpAxes, "up");
   result.metres_per_unit = given.metres_per_unit;
   if (capi::to_bool(given.has_local_origin, "has_local_origin")) {
     result.local_origin = capi::to_vec(given.local_origin);

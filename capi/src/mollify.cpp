@@ -26,7 +26,7 @@ dif_status dif_mollify(const dif_field* field, const dif_mollify_options* option
     capi::require_zero(given.reserved, "options");
     difmesh::MollifyOptions chosen;
     chosen.radius = given.radius;
-    chosen.sides = capi::to_sides(given.sides);
+    chosen.boundary = capi::to_boundary(given.boundary);
     chosen.threads = given.threads;
     chosen.progress = capi::to_progress(given.progress, given.progress_user);
     const difmesh::Array<double> smooth = mollify(view, chosen);

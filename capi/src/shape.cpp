@@ -11,17 +11,13 @@ namespace capi = difmesh::capi;
 
 namespace {
 
-using difmesh::ShapeKind;
-
-constexpr std::array kKinds{ShapeKind::sphere, ShapeKind::ellipsoid,  ShapeKind::torus,
-                            ShapeKind::genus,  ShapeKind::smooth_box, ShapeKind::golf_ball};
-
-ShapeKind to_kind(std::int32_t kind) {
-  if (kind < 1 || kind > static_cast<std::int32_t>(kKinds.size())) {
+// The constants follow the names from 1 on.
+difmesh::ShapeKind to_kind(std::int32_t kind) {
+  if (kind < 1 || kind > static_cast<std::int32_t>(difmesh::shape_names().size())) {
     capi::fail_argument("kind is " + std::to_string(kind) + "; DIF_SHAPE_SPHERE to " +
                         "DIF_SHAPE_GOLF_BALL are possible");
   }
-  return kKinds[static_cast<std::size_t>(kind - 1)];
+  return static_cast<difmesh::ShapeKind>(kind - 1);
 }
 
 }  // namespace

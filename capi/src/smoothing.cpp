@@ -15,8 +15,6 @@ namespace {
 using difmesh::BoundaryVertices;
 using difmesh::Mesh;
 
-constexpr std::array kBoundaries{BoundaryVertices::stay, BoundaryVertices::along};
-
 /// What all kinds take.
 template <class Options>
 Options common(const dif_smoothing_options& given) {
@@ -28,7 +26,8 @@ Options common(const dif_smoothing_options& given) {
 }
 
 BoundaryVertices boundary_of(const dif_smoothing_options& given) {
-  return capi::to_choice(given.boundary, BoundaryVertices::stay, kBoundaries, "boundary");
+  return capi::to_choice(given.boundary, BoundaryVertices::stay, difmesh::kBoundaryVertices,
+                         "boundary");
 }
 
 Mesh laplacian(const Mesh& mesh, const dif_smoothing_options& given) {
@@ -49,7 +48,7 @@ Mesh taubin(const Mesh& mesh, const dif_smoothing_options& given) {
 Mesh flow(const Mesh& mesh, const dif_smoothing_options& given) {
   auto options = common<difmesh::CurvatureFlowOptions>(given);
   options.time = given.time;
-  options.tolerance = given.residual;
+  options.residual = given.residual;
   return smooth_by_curvature_flow(mesh, options);
 }
 
@@ -90,7 +89,7 @@ dif_status dif_smoothing_options_init(dif_smoothing_options* options, uint64_t s
     value.lambda = taubin_defaults.lambda;
     value.pass_band = taubin_defaults.pass_band;
     value.time = flow_defaults.time;
-    value.residual = flow_defaults.tolerance;
+    value.residual = flow_defaults.residual;
     value.tolerance = constrained_defaults.tolerance;
     value.clearance = constrained_defaults.clearance;
     capi::write_struct(options, struct_size, value, "options");

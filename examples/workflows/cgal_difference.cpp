@@ -5,7 +5,7 @@
 #include <CGAL/Surface_mesh.h>
 
 #include <cmath>
-#include <difmesh/cgal.hpp>
+#include <difmesh/adapters/cgal.hpp>
 #include <difmesh/difmesh.hpp>
 #include <difmesh/io/field_file.hpp>
 #include <difmesh/io/mesh_file.hpp>

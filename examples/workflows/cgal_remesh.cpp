@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <difmesh/cgal.hpp>
+#include <difmesh/adapters/cgal.hpp>
 #include <difmesh/difmesh.hpp>
 #include <difmesh/io/field_file.hpp>
 #include <difmesh/io/mesh_file.hpp>

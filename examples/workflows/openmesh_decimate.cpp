@@ -4,10 +4,10 @@
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 #include <OpenMesh/Tools/Smoother/JacobiLaplaceSmootherT.hh>
 #include <cmath>
+#include <difmesh/adapters/openmesh.hpp>
 #include <difmesh/difmesh.hpp>
 #include <difmesh/io/field_file.hpp>
 #include <difmesh/io/mesh_file.hpp>
-#include <difmesh/openmesh.hpp>
 #include <iostream>
 
 struct Traits : OpenMesh::DefaultTraits {

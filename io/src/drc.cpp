@@ -11,6 +11,7 @@
 #include "atomic_file.hpp"
 #include "difmesh/error.hpp"
 #include "draco_codec.hpp"
+#include "flat_numbers.hpp"
 #include "format_part.hpp"
 #include "input_file.hpp"
 #include "mesh_check.hpp"
@@ -58,7 +59,7 @@ Array<Vec3> vectors_of(const std::filesystem::path& path, const DecodedAttribute
                           " components");
   }
   Array<Vec3> vectors(attribute.values.size() / 3);
-  std::copy(attribute.values.begin(), attribute.values.end(), vectors.data()->data());
+  std::copy(attribute.values.begin(), attribute.values.end(), flat_numbers(vectors));
   return vectors;
 }
 

@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "difmesh/error.hpp"
+#include "difmesh/io/names.hpp"
 #include "difmesh/version.hpp"
+#include "flat_numbers.hpp"
 #include "gltf_bytes.hpp"
 #include "mesh_check.hpp"
 
@@ -23,10 +25,6 @@ constexpr int kVertexTarget = 34962;
 constexpr int kIndexTarget = 34963;
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
 constexpr std::array<const char*, 4> kTypes{"SCALAR", "VEC2", "VEC3", "VEC4"};
-
-const char* name_of(ColourMap map) {
-  return map == ColourMap::viridis ? "viridis" : "cool_warm";
-}
 
 bool has_short_indices(std::size_t vertices) {
   return vertices <= kMostShortIndices;
@@ -64,7 +62,7 @@ void write_numbers(const GltfDocument::Sink& sink, const T* numbers, std::size_t
 void write_indices(const GltfDocument::Sink& sink, const PackedPrimitive& primitive) {
   const std::size_t count = 3 * primitive.triangles.size();
   if (!has_short_indices(primitive.vertices)) {
-    write_numbers(sink, primitive.triangles.data()->data(), count);
+    write_numbers(sink, flat_numbers(primitive.triangles), count);
     return;
   }
   Array<std::uint16_t> indices;
@@ -113,7 +111,7 @@ GltfDocument::GltfDocument(const std::filesystem::path& path, PackedSurface surf
   json_["meshes"].push_back(
       {{"name", options.name}, {"primitives", primitives_}, {"extras", mesh_extras(options)}});
   json_["materials"] = Json::array();
-  const double shade = options.colour ? 1.0 : 0.8;
+  const double shade = options.color ? 1.0 : 0.8;
   json_["materials"].push_back({{"pbrMetallicRoughness",
                                  {{"baseColorFactor", {shade, shade, shade, 1.0}},
                                   {"metallicFactor", 0.0},
@@ -157,11 +155,11 @@ Json GltfDocument::mesh_extras(const WriteMeshOptions& options) const {
     extras["scalars"][semantic_of(range.name)] = {
         {"name", range.name}, {"low", range.ends[0]}, {"high", range.ends[1]}};
   }
-  if (options.colour) {
-    extras["COLOR_0"] = {{"attribute", semantic_of(options.colour->scalars)},
-                         {"map", name_of(options.colour->map)},
-                         {"low", (*surface_.colour_range)[0]},
-                         {"high", (*surface_.colour_range)[1]}};
+  if (options.color) {
+    extras["COLOR_0"] = {{"attribute", semantic_of(options.color->scalars)},
+                         {"map", name_of(kColorMaps, options.color->map)},
+                         {"low", (*surface_.color_range)[0]},
+                         {"high", (*surface_.color_range)[1]}};
   }
   if (options.draco) {
     extras["position_bits"] = report_.position_bits;
@@ -188,12 +186,12 @@ int GltfDocument::add_accessor(Json accessor) {
 
 Json GltfDocument::attribute_accessor(const PackedAttribute& attribute,
                                       std::size_t vertices) const {
-  const bool is_colour = attribute.semantic == "COLOR_0";
-  const int word = is_colour && !compressed_.empty() ? kUint8 : kUint16;
+  const bool is_color = attribute.semantic == "COLOR_0";
+  const int word = is_color && !compressed_.empty() ? kUint8 : kUint16;
   Json accessor = {{"componentType", attribute.is_float() ? kFloat32 : word},
                    {"count", vertices},
                    {"type", kTypes[attribute.components - 1]}};
-  if (is_colour) {
+  if (is_color) {
     accessor["normalized"] = true;
   }
   return accessor;

@@ -8,6 +8,7 @@
 #include "difmesh/error.hpp"
 #include "draco_codec.hpp"
 #include "drc.hpp"
+#include "flat_numbers.hpp"
 #include "mesh_check.hpp"
 #include "text.hpp"
 
@@ -39,7 +40,7 @@ class PrimitiveReader {
     const auto count = static_cast<std::uint64_t>(place_.at("attributes").value().size());
     budget_.take(place_, vertices_ * (24U + 8U * count));
     surface_.content.mesh.positions.resize(vertices_);
-    read_numbers("POSITION", positions, surface_.content.mesh.positions.data()->data());
+    read_numbers("POSITION", positions, flat_numbers(surface_.content.mesh.positions));
     read_attributes();
     if (decoded_) {
       surface_.content.mesh.triangles = std::move(decoded_->triangles);
@@ -178,9 +179,9 @@ class PrimitiveReader {
   [[nodiscard]] std::optional<Array<Vec3>> vectors(const std::string& name,
                                                    const AccessorView& view) const {
     Array<Vec3> result(view.count);
-    read_numbers(name, view, result.data()->data());
-    return check_finite(name, view, result.data()->data()) ? std::optional(std::move(result))
-                                                           : std::nullopt;
+    read_numbers(name, view, flat_numbers(result));
+    return check_finite(name, view, flat_numbers(result)) ? std::optional(std::move(result))
+                                                          : std::nullopt;
   }
 
   void read_triangles() {

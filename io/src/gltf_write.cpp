@@ -59,21 +59,20 @@ void check_options(const std::filesystem::path& path, const Mesh& mesh,
       fail_write(ErrorCode::invalid_argument, path, "local_origin is not finite");
     }
   }
-  if (!options.colour) {
+  if (!options.color) {
     return;
   }
   const bool is_known = std::ranges::any_of(
       written_scalars(mesh, options),
-      [&](const VertexScalar& scalar) { return scalar.name == options.colour->scalars; });
+      [&](const VertexScalar& scalar) { return scalar.name == options.color->scalars; });
   if (!is_known) {
-    fail_write(
-        ErrorCode::invalid_argument, path,
-        "colours by " + in_quotes(options.colour->scalars) + ", which is none of the scalars");
+    fail_write(ErrorCode::invalid_argument, path,
+               "colors by " + in_quotes(options.color->scalars) + ", which is none of the scalars");
   }
-  if (const auto& range = options.colour->range) {
+  if (const auto& range = options.color->range) {
     if (!std::isfinite((*range)[0]) || !std::isfinite((*range)[1]) || (*range)[0] > (*range)[1]) {
       fail_write(ErrorCode::invalid_argument, path,
-                 "the range of colours is " + to_text((*range)[0]) + " to " + to_text((*range)[1]));
+                 "the range of colors is " + to_text((*range)[0]) + " to " + to_text((*range)[1]));
     }
   }
 }
@@ -82,7 +81,7 @@ void check_options(const std::filesystem::path& path, const Mesh& mesh,
 std::uint64_t least_data_bytes(const Mesh& mesh, const WriteMeshOptions& options) {
   const std::uint64_t per_vertex =
       12U + (options.normals ? 12U : 0U) + 4U * written_scalars(mesh, options).size() +
-      (options.colour ? 8U : 0U) + (options.edge_ids && !mesh.edge_ids.empty() ? 8U : 0U);
+      (options.color ? 8U : 0U) + (options.edge_ids && !mesh.edge_ids.empty() ? 8U : 0U);
   const std::uint64_t per_index = mesh.positions.size() > kMostShortIndices ? 4U : 2U;
   return mesh.positions.size() * per_vertex + 3U * mesh.triangles.size() * per_index;
 }
@@ -158,7 +157,7 @@ constexpr MeshFormat gltf_facts(std::string_view extension) {
           .normals = true,
           .edge_ids = true,
           .scalars = true,
-          .colours = true,
+          .colors = true,
           .scene = true,
           .compression = Compression::optional};
 }

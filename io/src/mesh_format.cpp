@@ -97,7 +97,7 @@ void check_options(const std::filesystem::path& path, const MeshFormat& format,
   };
   const WriteMeshOptions usual;
   const auto is_scene = [](const MeshFormat& f) { return f.scene; };
-  check(options.colour.has_value(), "colour", [](const MeshFormat& f) { return f.colours; });
+  check(options.color.has_value(), "color", [](const MeshFormat& f) { return f.colors; });
   check(options.draco.has_value(), "draco",
         [](const MeshFormat& f) { return f.compression != Compression::none; });
   check(options.up != usual.up, "up", is_scene);

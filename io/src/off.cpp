@@ -21,7 +21,7 @@ namespace {
 /// The kind of an OFF file, from its first word.
 struct OffKind {
   bool normals = false;
-  bool colours = false;
+  bool colors = false;
   bool textures = false;
 };
 
@@ -34,7 +34,7 @@ std::optional<OffKind> kind_of(std::string_view prefix) {
     there = there || is_next;
     return is_next;
   };
-  while (take("st", kind.textures) || take("c", kind.colours) || take("n", kind.normals)) {
+  while (take("st", kind.textures) || take("c", kind.colors) || take("n", kind.normals)) {
   }
   return prefix.empty() ? std::optional<OffKind>(kind) : std::nullopt;
 }
@@ -212,9 +212,9 @@ class OffReader {
       for (std::size_t axis = 0; kind_.normals && axis < 3; ++axis) {
         mesh_.normals[v][axis] = number("a component of a normal");
       }
-      const int more = (kind_.colours ? 4 : 0) + (kind_.textures ? 2 : 0);
+      const int more = (kind_.colors ? 4 : 0) + (kind_.textures ? 2 : 0);
       for (int n = 0; !layout_.vertex_extras && n < more; ++n) {
-        (void)number("a component of a colour or texture coordinate");
+        (void)number("a component of a color or texture coordinate");
       }
       end_item(layout_.vertex_extras);
     }
@@ -289,7 +289,7 @@ class BinaryOffReader {
     const std::uint64_t vertices = count();
     const std::uint64_t faces = count();
     (void)word();  // the number of edges
-    const std::size_t extras = (kind_.colours ? 4U : 0U) + (kind_.textures ? 2U : 0U);
+    const std::size_t extras = (kind_.colors ? 4U : 0U) + (kind_.textures ? 2U : 0U);
     const std::size_t numbers = 3 + (kind_.normals ? 3U : 0U) + extras;
     // A face has its number of corners, three of them at least, and the number of its colours.
     need(vertices * numbers + faces * 5);
@@ -357,9 +357,9 @@ class BinaryOffReader {
       }
     }
     polygons_.add(mesh_.triangles, corners_);
-    const std::uint64_t colours = count();
-    need(colours);
-    at_ += 4 * colours;
+    const std::uint64_t colors = count();
+    need(colors);
+    at_ += 4 * colors;
   }
 
   const std::filesystem::path& path_;

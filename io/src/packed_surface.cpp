@@ -48,16 +48,16 @@ std::vector<Part> split(const Mesh& mesh, std::size_t most_vertices) {
 }
 
 /// Colours of 16 bits for 4096 shares, linear: the eye cannot tell more apart.
-class ColourTable {
+class ColorTable {
  public:
-  ColourTable(const ColourBy& by, const std::array<double, 2>& range) : low_(range[0]) {
+  ColorTable(const ColorBy& by, const std::array<double, 2>& range) : low_(range[0]) {
     const double extent = range[1] - range[0];
     scale_ = extent > 0.0 ? static_cast<double>(table_.size() - 1) / extent : 0.0;
     for (std::size_t i = 0; i < table_.size(); ++i) {
       const double share = static_cast<double>(i) / static_cast<double>(table_.size() - 1);
-      const Colour colour = to_linear(colour_of(by.map, share));
+      const Color color = to_linear(color_of(by.map, share));
       for (std::size_t c = 0; c < 3; ++c) {
-        table_[i][c] = static_cast<std::uint16_t>(std::lround(colour[c] * 65535.0));
+        table_[i][c] = static_cast<std::uint16_t>(std::lround(color[c] * 65535.0));
       }
     }
   }
@@ -79,11 +79,11 @@ std::array<double, 2> range_of(const Array<double>& values) {
   return {*low, *high};
 }
 
-std::array<double, 2> colour_range_of(const ColourBy& by, const std::array<double, 2>& range) {
+std::array<double, 2> color_range_of(const ColorBy& by, const std::array<double, 2>& range) {
   if (by.range) {
     return *by.range;
   }
-  if (by.map == ColourMap::cool_warm) {
+  if (by.map == ColorMap::cool_warm) {
     const double size = std::max(std::abs(range[0]), std::abs(range[1]));
     return {-size, size};
   }
@@ -107,9 +107,9 @@ class Packer {
     for (const VertexScalar& scalar : scalars_) {
       surface_.ranges.push_back({scalar.name, range_of(scalar.values)});
     }
-    if (options_.colour) {
-      surface_.colour_range =
-          colour_range_of(*options_.colour, surface_.ranges[coloured_scalars()].ends);
+    if (options_.color) {
+      surface_.color_range =
+          color_range_of(*options_.color, surface_.ranges[colored_scalars()].ends);
     }
     if (mesh_.positions.size() <= static_cast<std::size_t>(options_.most_vertices)) {
       std::vector<std::uint32_t> all(mesh_.positions.size());
@@ -126,8 +126,8 @@ class Packer {
   }
 
  private:
-  [[nodiscard]] std::size_t coloured_scalars() const {
-    const auto found = std::ranges::find(scalars_, options_.colour->scalars, &VertexScalar::name);
+  [[nodiscard]] std::size_t colored_scalars() const {
+    const auto found = std::ranges::find(scalars_, options_.color->scalars, &VertexScalar::name);
     return static_cast<std::size_t>(found - scalars_.begin());
   }
 
@@ -173,8 +173,8 @@ class Packer {
     if (options_.edge_ids && !mesh_.edge_ids.empty()) {
       attributes.push_back(digits("_EDGE_ID", 4, vertices, mesh_.edge_ids.data()));
     }
-    if (options_.colour) {
-      attributes.push_back(colours(vertices));
+    if (options_.color) {
+      attributes.push_back(colors(vertices));
     }
     if (with_index) {
       attributes.push_back(digits("_VERTEX", 2, vertices, nullptr));
@@ -212,14 +212,14 @@ class Packer {
     return attribute;
   }
 
-  [[nodiscard]] PackedAttribute colours(const std::vector<std::uint32_t>& vertices) const {
-    const ColourTable table(*options_.colour, *surface_.colour_range);
-    const Array<double>& values = scalars_[coloured_scalars()].values;
+  [[nodiscard]] PackedAttribute colors(const std::vector<std::uint32_t>& vertices) const {
+    const ColorTable table(*options_.color, *surface_.color_range);
+    const Array<double>& values = scalars_[colored_scalars()].values;
     PackedAttribute attribute{.semantic = "COLOR_0", .components = 4};
     attribute.words.reserve(4 * vertices.size());
     for (const std::uint32_t v : vertices) {
-      const auto& colour = table(values[v]);
-      attribute.words.insert(attribute.words.end(), colour.begin(), colour.end());
+      const auto& color = table(values[v]);
+      attribute.words.insert(attribute.words.end(), color.begin(), color.end());
       attribute.words.push_back(0xFFFF);
     }
     return attribute;

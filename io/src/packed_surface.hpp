@@ -48,7 +48,7 @@ struct PackedSurface {
   Vec3 origin{0, 0, 0};
   std::vector<PackedPrimitive> primitives;
   std::vector<ScalarRange> ranges;  ///< of each of the scalars written
-  std::optional<std::array<double, 2>> colour_range;
+  std::optional<std::array<double, 2>> color_range;
 };
 
 /// What becomes of a mesh that check_portion() and check_scalars() took.

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "difmesh/distance.hpp"
+#include "difmesh/metrics/distance.hpp"
 
 namespace difmesh::detail {
 

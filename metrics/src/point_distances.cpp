@@ -1,4 +1,4 @@
-#include "difmesh/point_distances.hpp"
+#include "difmesh/metrics/point_distances.hpp"
 
 #include <cmath>
 #include <cstddef>

@@ -2,7 +2,7 @@
 // Measures the points of a surface against a field of distances.
 
 #include "base/parallel.hpp"
-#include "difmesh/distance.hpp"
+#include "difmesh/metrics/distance.hpp"
 #include "distance_field.hpp"
 #include "surface_view.hpp"
 

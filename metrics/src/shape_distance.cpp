@@ -1,5 +1,5 @@
-#include "difmesh/distance.hpp"
 #include "difmesh/float_environment.hpp"
+#include "difmesh/metrics/distance.hpp"
 #include "difmesh/shapes.hpp"
 
 namespace difmesh {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "difmesh/distance.hpp"
+#include "difmesh/metrics/distance.hpp"
 
 namespace difmesh::detail {
 

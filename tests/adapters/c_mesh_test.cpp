@@ -1,6 +1,6 @@
 // The adapters for users of libdifmesh alone: the C++ core is not linked here.
 
-#include "difmesh/c_mesh.hpp"
+#include "difmesh/adapters/c_mesh.hpp"
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "adapters/openmesh_meshes.hpp"
-#include "difmesh/cgal.hpp"
-#include "difmesh/openmesh.hpp"
+#include "difmesh/adapters/cgal.hpp"
+#include "difmesh/adapters/openmesh.hpp"
 #include "support/fields.hpp"
 
 using namespace difmesh;
@@ -34,7 +34,7 @@ Owned surface_of(const OwnedField& cells) {
   REQUIRE(dif_options_init(&options, sizeof options) == DIF_OK);
   options.vertex_normals = 1;
   options.edge_ids = 1;
-  for (std::int32_t& side : options.sides) {
+  for (std::int32_t& side : options.boundary) {
     side = DIF_SIDE_EMPTY;
   }
   REQUIRE(dif_reconstruct(&field, &options, &mesh) == DIF_OK);

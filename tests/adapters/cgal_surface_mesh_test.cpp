@@ -10,7 +10,7 @@
 
 #include "adapters/graphs.hpp"
 #include "adapters/surfaces.hpp"
-#include "difmesh/cgal.hpp"
+#include "difmesh/adapters/cgal.hpp"
 #include "difmesh/fractions_from_mesh.hpp"
 #include "difmesh/measure.hpp"
 #include "support/fields.hpp"

@@ -13,7 +13,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "difmesh/detail/cgal_writer.hpp"
+#include "difmesh/adapters/detail/cgal_writer.hpp"
 #include "difmesh/mesh.hpp"
 
 namespace difmesh::test {

@@ -1,6 +1,6 @@
 // Surfaces in OpenMesh. The judges are its own builder and its MeshChecker.
 
-#include "difmesh/openmesh.hpp"
+#include "difmesh/adapters/openmesh.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -20,7 +20,7 @@ namespace {
 
 Mesh surface_of(const FieldView& field, const Grid& grid, Side side) {
   Options options;
-  options.sides.fill(side);
+  options.boundary.fill(side);
   options.vertex_normals = true;
   options.edge_ids = true;
   return reconstruct(field, grid, options).mesh;

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "difmesh/adapters/mesh_view.hpp"
 #include "difmesh/mesh.hpp"
-#include "difmesh/mesh_view.hpp"
 
 namespace difmesh::test {
 

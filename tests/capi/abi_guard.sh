@@ -2,10 +2,12 @@
 # Holds libdifmesh.so and difmesh.h against what was promised: exported.txt, the functions that
 # leave the library, and difmesh.abi, all of the header's functions, structs and types as libabigail
 # sees them. Then makes incompatible changes to copies of the header and fails unless each of them
-#   is noticed. abi_guard.sh LIBRARY          check
+# is noticed.
+#   abi_guard.sh LIBRARY          check
 #   abi_guard.sh LIBRARY update   write both files anew: after additions, never after incompatible
-# changes The library is the real one; its types are taken from the header, with a function of no
-# effect for each declaration, for the real functions drag in all that C++ they use.
+#                                 changes
+# The library is the real one; its types are taken from the header, with a function of no effect for
+# each declaration, for the real functions drag in all that C++ they use.
 set -euo pipefail
 export LC_ALL=C
 

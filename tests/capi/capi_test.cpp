@@ -84,8 +84,8 @@ TEST_CASE("a reconstruction has the bits of the core's for every choice") {
       const std::array<Side, 6> sides{Side::open,     Side::mirror, Side::periodic,
                                       Side::periodic, Side::empty,  Side::full};
       for (std::size_t side = 0; side < 6; ++side) {
-        options.sides[side] = static_cast<std::int32_t>(sides[side]) + 1;
-        expected.sides[side] = sides[side];
+        options.boundary[side] = static_cast<std::int32_t>(sides[side]) + 1;
+        expected.boundary[side] = sides[side];
       }
       options.threads = 2;
       options.clearance = expected.clearance = 1e-3;

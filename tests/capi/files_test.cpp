@@ -289,10 +289,10 @@ TEST_CASE("glTF's options are in the file") {
   const auto mesh = surface_with_heights();
   dif_mesh_write_options options = c::prepared(dif_mesh_write_options_init);
   options.format = "gltf";
-  options.colour_by = "height";
-  options.colour_map = DIF_COLOUR_MAP_COOL_WARM;
-  options.colour_range[0] = -3.5;
-  options.colour_range[1] = 6.25;
+  options.color_by = "height";
+  options.color_map = DIF_COLOR_MAP_COOL_WARM;
+  options.color_range[0] = -3.5;
+  options.color_range[1] = 6.25;
   options.up = DIF_UP_Z;
   options.metres_per_unit = 0.125;
   options.has_local_origin = 1;

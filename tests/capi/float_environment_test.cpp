@@ -220,9 +220,9 @@ void reconstruct_all(Results& results, Probe& probe) {
         options.normals = normals;
         options.vertex_normals = 1;
         options.edge_ids = 1;
-        options.sides[0] = DIF_SIDE_EMPTY;
-        options.sides[3] = DIF_SIDE_MIRROR;
-        options.sides[4] = options.sides[5] = DIF_SIDE_PERIODIC;
+        options.boundary[0] = DIF_SIDE_EMPTY;
+        options.boundary[3] = DIF_SIDE_MIRROR;
+        options.boundary[4] = options.boundary[5] = DIF_SIDE_PERIODIC;
         reconstruct(results, probe,
                     "field " + std::to_string(f) + ", placement " + std::to_string(placement) +
                         ", normals " + std::to_string(normals),

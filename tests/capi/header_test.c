@@ -5,7 +5,7 @@
 #include "difmesh/difmesh.h" /* twice */
 
 #define FROZEN(constant, value) typedef char frozen_##constant[(constant) == (value) ? 1 : -1]
-/* Structs may grow at their ends, beyond what 0.1 had. */
+/* Structs may grow at their ends, beyond what 0.2 had. */
 #define AT_LEAST(type, size)                                                             \
   typedef char size_of_##type[sizeof(type) >= (size) && sizeof(type) % 8 == 0 ? 1 : -1]; \
   typedef char start_of_##type[offsetof(type, struct_size) == 0 ? 1 : -1]
@@ -64,9 +64,9 @@ FROZEN(DIF_SHAPE_GOLF_BALL, 6);
 FROZEN(DIF_DRACO_DEFAULT, 0);
 FROZEN(DIF_DRACO_EDGEBREAKER, 1);
 FROZEN(DIF_DRACO_SEQUENTIAL, 2);
-FROZEN(DIF_COLOUR_MAP_DEFAULT, 0);
-FROZEN(DIF_COLOUR_MAP_VIRIDIS, 1);
-FROZEN(DIF_COLOUR_MAP_COOL_WARM, 2);
+FROZEN(DIF_COLOR_MAP_DEFAULT, 0);
+FROZEN(DIF_COLOR_MAP_VIRIDIS, 1);
+FROZEN(DIF_COLOR_MAP_COOL_WARM, 2);
 FROZEN(DIF_NORMALS_ELVIRA, 4);
 FROZEN(DIF_NORMALS_LVIRA, 5);
 FROZEN(DIF_SMOOTHING_DEFAULT, 0);

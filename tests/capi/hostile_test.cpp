@@ -192,9 +192,9 @@ std::vector<Case> field_cases() {
       CHANGED(f, options.placement = 5, kArgument, reconstruct),
       CHANGED(f, options.placement = -1, kArgument, reconstruct),
       CHANGED(f, options.normals = 6, kArgument, reconstruct),
-      CHANGED(f, options.sides[3] = 6, kArgument, reconstruct),
-      CHANGED(f, options.sides[5] = -2, kArgument, reconstruct),
-      CHANGED(f, options.sides[0] = DIF_SIDE_PERIODIC, kArgument, reconstruct),
+      CHANGED(f, options.boundary[3] = 6, kArgument, reconstruct),
+      CHANGED(f, options.boundary[5] = -2, kArgument, reconstruct),
+      CHANGED(f, options.boundary[0] = DIF_SIDE_PERIODIC, kArgument, reconstruct),
       CHANGED(f, options.vertex_normals = 2, kArgument, reconstruct),
       CHANGED(f, options.edge_ids = -1, kArgument, reconstruct),
       CHANGED(f, options.purity_tolerance = kNaN, kArgument, reconstruct),
@@ -359,8 +359,8 @@ std::vector<Case> smoothing_cases() {
         CHANGED(m, mollify_options.struct_size = 5, kStruct, mollify),
         CHANGED(m, mollify_options.radius = 0.5, kArgument, mollify),
         CHANGED(m, mollify_options.radius = kNaN, kArgument, mollify),
-        CHANGED(m, mollify_options.sides[2] = 6, kArgument, mollify),
-        CHANGED(m, mollify_options.sides[2] = DIF_SIDE_PERIODIC, kArgument, mollify),
+        CHANGED(m, mollify_options.boundary[2] = 6, kArgument, mollify),
+        CHANGED(m, mollify_options.boundary[2] = DIF_SIDE_PERIODIC, kArgument, mollify),
         CHANGED(m, mollify_options.threads = -1, kArgument, mollify),
         CHANGED(m, mollify_options.reserved = 1, kArgument, mollify),
         CHANGED(m, field.dims[0] = 0, kGrid, mollify),
@@ -503,8 +503,6 @@ std::vector<Case> fraction_cases() {
       CHANGED(m, triangle_options.check_edges = -3, kArgument, from_mesh),
       CHANGED(m, triangle_options.tolerance = kNaN, kArgument, from_mesh),
       CHANGED(m, triangle_options.threads = -1, kArgument, from_mesh),
-      CHANGED(m, triangle_options.reserved = 1, kArgument, from_mesh),
-      CHANGED(m, triangle_options.reserved_2 = 1, kArgument, from_mesh),
       CHANGED(m, triangle_options.overlaps = 4, kArgument, from_mesh),
       CHANGED(m, triangle_options.overlaps = -1, kArgument, from_mesh),
       CALL(s, dif_shape_create(nullptr, nullptr), kArgument),
@@ -623,9 +621,9 @@ dif_status write_draco(Bench& b) {
 dif_status write_drc(Bench& b) {
   return write_mesh_to(b, "/nowhere/x.drc");
 }
-dif_status write_coloured(Bench& b) {
+dif_status write_colored(Bench& b) {
   REQUIRE(dif_mesh_set_scalars(b.mesh.get(), "height", b.numbers.data()) == DIF_OK);
-  b.write_options.colour_by = "height";
+  b.write_options.color_by = "height";
   return write_mesh_to(b, "/nowhere/x.glb");
 }
 dif_status write_ply(Bench& b) {
@@ -644,14 +642,14 @@ std::vector<Case> write_cases() {
         CHANGED(f, write_options.edge_ids = -1, kArgument, write_ply),
         CHANGED(f, write_options.scalars = 2, kArgument, write_ply),
         CHANGED(f, write_options.draco = 1, kArgument, write_ply),
-        CHANGED(f, write_options.colour_by = "height", kArgument, write_ply),
+        CHANGED(f, write_options.color_by = "height", kArgument, write_ply),
         CHANGED(f, write_options.up = DIF_UP_Z, kArgument, write_ply),
         CHANGED(f, write_options.metres_per_unit = 0.001, kArgument, write_ply),
         CHANGED(f, write_options.most_vertices = 65535, kArgument, write_ply),
         CHANGED(f, write_options.name = "drop", kArgument, write_ply),
         CHANGED(f, write_options.has_local_origin = 1, kArgument, write_ply),
         CHANGED(f, write_options.draco = 2, kArgument, write_glb),
-        CHANGED(f, write_options.colour_by = "height", kArgument, write_glb),
+        CHANGED(f, write_options.color_by = "height", kArgument, write_glb),
         CHANGED(f, write_options.up = 3, kArgument, write_glb),
         CHANGED(f, write_options.metres_per_unit = kNaN, kArgument, write_glb),
         CHANGED(f, write_options.metres_per_unit = 0.0, kArgument, write_glb),
@@ -669,9 +667,9 @@ std::vector<Case> write_cases() {
         CHANGED(f, write_options.generic_bits = 0, kArgument, write_draco),
         CHANGED(f, write_options.cell_size = -1.0, kArgument, write_draco),
         CHANGED(f, write_options.cell_size = kNaN, kArgument, write_drc),
-        CHANGED(f, write_options.colour_map = 3, kArgument, write_coloured),
-        CHANGED(f, write_options.colour_range[0] = kNaN, kArgument, write_coloured),
-        CHANGED(f, write_options.colour_range[0] = 1.0, kArgument, write_coloured),
+        CHANGED(f, write_options.color_map = 3, kArgument, write_colored),
+        CHANGED(f, write_options.color_range[0] = kNaN, kArgument, write_colored),
+        CHANGED(f, write_options.color_range[0] = 1.0, kArgument, write_colored),
   };
 }
 

@@ -120,7 +120,7 @@ TEST_CASE("smoothing is that of the core and gives a new mesh") {
   options.time = 0.5;
   options.residual = 1e-6;
   check(nullptr, difmesh::smooth_by_curvature_flow(mesh.positions, mesh.triangles,
-                                                   {.time = 0.5, .tolerance = 1e-6}));
+                                                   {.time = 0.5, .residual = 1e-6}));
   options.kind = DIF_SMOOTHING_CONSTRAINED;
   options.tolerance = 2e-3;
   check(&grid, difmesh::smooth_within_fractions(mesh, kGrid, {.tolerance = 2e-3}).mesh.positions);
@@ -138,15 +138,15 @@ TEST_CASE("mollification is that of the core") {
   REQUIRE(dif_mollify(&ball.field, nullptr, values.data()) == DIF_OK);
   CHECK(same(values, difmesh::mollify(ball.values.view())));
   options.radius = 3.0;
-  options.sides[0] = options.sides[1] = DIF_SIDE_PERIODIC;
-  options.sides[4] = DIF_SIDE_EMPTY;
-  options.sides[5] = DIF_SIDE_FULL;
+  options.boundary[0] = options.boundary[1] = DIF_SIDE_PERIODIC;
+  options.boundary[4] = DIF_SIDE_EMPTY;
+  options.boundary[5] = DIF_SIDE_FULL;
   REQUIRE(dif_mollify(&ball.field, &options, values.data()) == DIF_OK);
   difmesh::MollifyOptions wanted;
   wanted.radius = 3.0;
-  wanted.sides[0] = wanted.sides[1] = difmesh::Side::periodic;
-  wanted.sides[4] = difmesh::Side::empty;
-  wanted.sides[5] = difmesh::Side::full;
+  wanted.boundary[0] = wanted.boundary[1] = difmesh::Side::periodic;
+  wanted.boundary[4] = difmesh::Side::empty;
+  wanted.boundary[5] = difmesh::Side::full;
   CHECK(same(values, difmesh::mollify(ball.values.view(), wanted)));
 }
 

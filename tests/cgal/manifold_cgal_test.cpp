@@ -120,7 +120,7 @@ std::string judge(const OwnedField& field, const Options& options) {
   if (verdict == "fine") {
     verdict = judge_with_cgal(result);
   }
-  const bool closed_by_empty = std::all_of(options.sides.begin(), options.sides.end(),
+  const bool closed_by_empty = std::all_of(options.boundary.begin(), options.boundary.end(),
                                            [](Side side) { return side == Side::empty; });
   if (verdict == "fine" && closed_by_empty) {
     verdict = judge_solid(result);
@@ -136,7 +136,7 @@ TEST_CASE("manifold: all 256 cases with random vertex positions") {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> even(0.0, 1.0);
   Options options;
-  options.sides.fill(Side::empty);
+  options.boundary.fill(Side::empty);
   for (int inside = 1; inside < 256; ++inside) {
     for (int round = 0; round < kCasePositions; ++round) {
       OwnedField field({2, 2, 2});
@@ -156,7 +156,7 @@ TEST_CASE("manifold: white noise with every kind of side") {
   for (const Side side : kAllSides) {
     for (int n = 0; n < kNoiseFields; ++n) {
       Options options;
-      options.sides.fill(side);
+      options.boundary.fill(side);
       options.placement = n % 5 == 4 ? Placement::linear : Placement::plic;
       CAPTURE(static_cast<int>(side));
       CAPTURE(n);
@@ -171,7 +171,7 @@ TEST_CASE("manifold: sides mixed at random and thin domains") {
   constexpr Index3 kDims[] = {{16, 16, 1}, {1, 12, 16}, {2, 16, 3}, {9, 9, 9}, {1, 1, 40}};
   for (int n = 0; n < 2 * kNoiseFields; ++n) {
     Options options;
-    for (Side& side : options.sides) {
+    for (Side& side : options.boundary) {
       constexpr Side kAlone[] = {Side::open, Side::mirror, Side::empty, Side::full};
       side = kAlone[random() % 4];
     }
@@ -188,7 +188,7 @@ TEST_CASE("manifold: values out of 0 and 1/2 and 1") {
       for (const Placement placement :
            {Placement::midpoint, Placement::linear, Placement::manson, Placement::plic}) {
         Options options;
-        options.sides.fill(side);
+        options.boundary.fill(side);
         options.placement = placement;
         CAPTURE(static_cast<int>(side));
         CAPTURE(static_cast<int>(placement));

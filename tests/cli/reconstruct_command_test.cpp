@@ -18,6 +18,7 @@
 
 namespace {
 
+using difmesh::Boundary;
 using difmesh::Grid;
 using difmesh::Index3;
 using difmesh::Mesh;
@@ -25,7 +26,6 @@ using difmesh::Normals;
 using difmesh::Options;
 using difmesh::Placement;
 using difmesh::Side;
-using difmesh::Sides;
 using difmesh::Vec3;
 using difmesh::test::box_field;
 using difmesh::test::check_succeeds;
@@ -127,10 +127,10 @@ TEST_CASE("boundaries are those of the library") {
   OwnedField field = difmesh::test::white_noise({6, 5, 7}, 3);
   write_field(place.folder / "noise.npy", field.view());
   const Grid grid{field.dims, {0, 0, 0}, {1, 1, 1}};
-  const auto check = [&](const std::string& text, const Sides& sides) {
+  const auto check = [&](const std::string& text, const Boundary& boundary) {
     CAPTURE(text);
     Options options;
-    options.sides = sides;
+    options.boundary = boundary;
     const Mesh expected = reconstruct(field.view(), grid, options).mesh;
     CHECK(same_bits(place.reconstruct("noise.npy", {"--boundary", text}), expected));
   };
@@ -341,8 +341,8 @@ TEST_CASE("the report holds what the library reports") {
                               "periodic,periodic,open,mirror,empty,open"});
   CHECK(outcome.exit_code == 0);
   Options options;
-  options.sides = {Side::periodic, Side::periodic, Side::open,
-                   Side::mirror,   Side::empty,    Side::open};
+  options.boundary = {Side::periodic, Side::periodic, Side::open,
+                      Side::mirror,   Side::empty,    Side::open};
   const Grid grid{kGrid.dims, kGrid.origin, {0.1, 0.1, 0.1}};
   const auto [mesh, expected] = reconstruct(field.view(), grid, options);
   const nlohmann::json report = read_json(path);

@@ -74,10 +74,10 @@ TEST_CASE("--mollify smooths the field first") {
   for (const double radius : {2.0, 3.5}) {
     difmesh::MollifyOptions options;
     options.radius = radius;
-    options.sides.fill(difmesh::Side::empty);
+    options.boundary.fill(difmesh::Side::empty);
     const Array<double> smooth = difmesh::mollify(place.drop.view(), options);
     Options wanted;
-    wanted.sides = options.sides;
+    wanted.boundary = options.boundary;
     const Mesh expected =
         difmesh::reconstruct(FieldView::x_fastest(smooth.data(), kGrid.dims), kGrid, wanted).mesh;
     const Mesh mesh =

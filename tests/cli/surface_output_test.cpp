@@ -61,7 +61,7 @@ struct Place {
 
 }  // namespace
 
-TEST_CASE("curvature reaches glTF and Draco and colours by it") {
+TEST_CASE("curvature reaches glTF and Draco and colors by it") {
   const Place place;
   const auto wanted = difmesh::curvature(place.wanted());
   const auto largest = [](const difmesh::Array<double>& a, const difmesh::Array<double>& b) {
@@ -91,13 +91,13 @@ TEST_CASE("curvature reaches glTF and Draco and colours by it") {
   check("m.drc", {"--curvature", "--draco-method", "sequential"}, 1e-2);
   // Alone, it is computed for the colours.
   check_succeeds(place.reconstruct("c.glb", {"--color-by", "gaussian-curvature"}));
-  const MeshFile coloured = difmesh::read_mesh_file(place.path("c.glb"));
-  REQUIRE(coloured.mesh.scalars.size() == 1);
-  CHECK(coloured.mesh.scalars[0].name == "gaussian_curvature");
-  CHECK(largest(coloured.mesh.scalars[0].values, wanted.gaussian) < 1e-4);
+  const MeshFile colored = difmesh::read_mesh_file(place.path("c.glb"));
+  REQUIRE(colored.mesh.scalars.size() == 1);
+  CHECK(colored.mesh.scalars[0].name == "gaussian_curvature");
+  CHECK(largest(colored.mesh.scalars[0].values, wanted.gaussian) < 1e-4);
 }
 
-TEST_CASE("reconstruct writes glb with normals and edge ids and colours") {
+TEST_CASE("reconstruct writes glb with normals and edge ids and colors") {
   const Place place;
   const auto outcome = place.reconstruct(
       "m.glb",
@@ -145,7 +145,7 @@ struct BallPlace {
 
 }  // namespace
 
-TEST_CASE("reconstruct colours by the error against a shape and a mesh") {
+TEST_CASE("reconstruct colors by the error against a shape and a mesh") {
   const BallPlace place;
   check_succeeds(run_program({"reconstruct", place.field, "-o", place.glb, "--color-by", "error",
                               "--shape", "sphere", "--radius", "2", "--centre", "1,2,3"}));
@@ -160,16 +160,16 @@ TEST_CASE("reconstruct colours by the error against a shape and a mesh") {
   }
   CHECK(largest > 1e-3);
   CHECK(largest < 0.02);
-  const Json colour = Glb(test::read_bytes(place.glb))
-                          .json.at("meshes")
-                          .at(0)
-                          .at("extras")
-                          .at("difmesh")
-                          .at("COLOR_0");
-  CHECK(colour.at("attribute") == "_ERROR");
-  CHECK(colour.at("map") == "cool_warm");  // the one that diverges, unless told otherwise
-  CHECK(colour.at("high").get<double>() == doctest::Approx(largest));
-  CHECK(colour.at("low").get<double>() == doctest::Approx(-largest));
+  const Json color = Glb(test::read_bytes(place.glb))
+                         .json.at("meshes")
+                         .at(0)
+                         .at("extras")
+                         .at("difmesh")
+                         .at("COLOR_0");
+  CHECK(color.at("attribute") == "_ERROR");
+  CHECK(color.at("map") == "cool_warm");  // the one that diverges, unless told otherwise
+  CHECK(color.at("high").get<double>() == doctest::Approx(largest));
+  CHECK(color.at("low").get<double>() == doctest::Approx(-largest));
 
   // Against a mesh of it that is finer than the errors, and written without colours.
   const std::string fine = (place.folder / "fine.nrrd").string();

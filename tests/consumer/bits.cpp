@@ -106,8 +106,8 @@ int main(int argc, char** argv) {
   const auto random = noise(grid);
   const auto field = difmesh::FieldView::x_fastest(random.data(), grid.dims);
   print_mesh("noise", difmesh::reconstruct(field, grid, options).mesh);
-  options.sides = {Side::periodic, Side::periodic, Side::mirror,
-                   Side::empty,    Side::full,     Side::open};
+  options.boundary = {Side::periodic, Side::periodic, Side::mirror,
+                      Side::empty,    Side::full,     Side::open};
   options.normals = difmesh::Normals::myc;
   print_mesh("noise, other sides", difmesh::reconstruct(field, grid, options).mesh);
   options.placement = difmesh::Placement::manson;

@@ -124,7 +124,7 @@ async function onePage() {
     document.getElementById('scalars').dispatchEvent(new Event('change'));
   });
   // The camera looks from (0.5, 0.35, 0.8) with y up, and z of the mesh towards it.
-  const coloured = await picture(page);
+  const colored = await picture(page);
   const yellow = (image) => {
     let count = 0;
     for (let y = 0; y < image.height; ++y) {
@@ -135,9 +135,9 @@ async function onePage() {
     }
     return count;
   };
-  check(yellow(plain) === 0 && yellow(coloured) > 1000, what, 'colours do not show');
+  check(yellow(plain) === 0 && yellow(colored) > 1000, what, 'colors do not show');
   check(await page.evaluate(() => document.getElementById('low').value) === '-1.5', what, 'legend');
-  near(covered(coloured), silhouette(await eye(page)), what);
+  near(covered(colored), silhouette(await eye(page)), what);
   const far = await eye(page);
   await page.mouse.move(320, 240);
   await page.mouse.wheel(0, -300);
@@ -207,9 +207,9 @@ async function plainPages() {
     }
   });
   await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
-  for (const file of ['plain.glb', 'plain.gltf', 'colours.glb', 'split.glb', 'z_up.glb', 'far.glb',
+  for (const file of ['plain.glb', 'plain.gltf', 'colors.glb', 'split.glb', 'z_up.glb', 'far.glb',
     'draco.glb', 'draco_11.gltf', 'draco_sequential.glb', 'draco_split.glb', 'draco_far.glb',
-    'draco_colours.glb']) {
+    'draco_colors.glb']) {
     const url = `http://127.0.0.1:${server.address().port}/?file=/samples/${file}`;
     const {page, said} = await open(url, file);
     const size = await page.evaluate(() => window.difmesh.size);

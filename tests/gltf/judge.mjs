@@ -145,7 +145,7 @@ async function judgeGltf(sample) {
     const get = (name, v) => arrays.get(name)?.getElement(v, []);
     compareVertices(sample, get, positions.getCount(), (p) => p.map((x, axis) => x + local[axis]),
       whole);
-    check((arrays.get('COLOR_0') !== null) === sample.colour, sample.file, 'colours');
+    check((arrays.get('COLOR_0') !== null) === sample.color, sample.file, 'colors');
     const numbers = [];
     for (let v = 0; v < positions.getCount(); ++v) {
       const id = get('_EDGE_ID', v);

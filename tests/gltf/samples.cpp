@@ -93,7 +93,7 @@ class Samples {
           << ",\"bits\":" << report.position_bits << ",\"error\":" << report.position_error
           << ",\"up\":\"" << (options.up == difmesh::UpAxis::z ? 'z' : 'y')
           << "\",\"metres\":" << options.metres_per_unit
-          << ",\"colour\":" << (options.colour ? "true" : "false") << "}\n";
+          << ",\"color\":" << (options.color ? "true" : "false") << "}\n";
   }
 
   void one_triangle() {
@@ -139,8 +139,8 @@ void write_all(Samples& samples) {
     o.edge_ids = false;
     o.normals = false;
   });
-  samples.add("colours.glb", 40, 1, [](Options& o) {
-    o.colour = difmesh::ColourBy{"height", difmesh::ColourMap::viridis, {}};
+  samples.add("colors.glb", 40, 1, [](Options& o) {
+    o.color = difmesh::ColorBy{"height", difmesh::ColorMap::viridis, {}};
   });
   samples.add("split.glb", 40, 1, [](Options& o) { o.most_vertices = 500; });
   samples.add("z_up.glb", 40, 1, [](Options& o) {
@@ -152,9 +152,9 @@ void write_all(Samples& samples) {
   samples.add("draco_sequential.glb", 40, 1, draco(14, kSequential));
   samples.add("draco_three.glb", 40, 3, draco(14, kEdgebreaker));
   samples.add("draco_far.glb", 40, 1, draco(14, kEdgebreaker), {1e6, -1e6, 1e6}, 0.05);
-  samples.add("draco_colours.glb", 40, 1, [&](Options& o) {
+  samples.add("draco_colors.glb", 40, 1, [&](Options& o) {
     draco(14, kEdgebreaker)(o);
-    o.colour = difmesh::ColourBy{"height", difmesh::ColourMap::cool_warm, {}};
+    o.color = difmesh::ColorBy{"height", difmesh::ColorMap::cool_warm, {}};
   });
   samples.add("draco_split.glb", 40, 1, [&](Options& o) {
     draco(14, kEdgebreaker)(o);

@@ -268,42 +268,41 @@ TEST_CASE("split meshes have small primitives and come back whole") {
   }
 }
 
-TEST_CASE("colours follow the map between the ends of the range") {
+TEST_CASE("colors follow the map between the ends of the range") {
   const TempFolder folder;
   Mesh mesh = test::sheet(3);
   mesh.scalars = {{"k", {-2, -1, 0, 1, 2, 3, 4, 5, 6}}};
-  const auto colour_at = [&](const difmesh::ColourBy& by, std::size_t v) {
-    difmesh::write_mesh(folder / "m.glb", mesh, {.colour = by});
+  const auto color_at = [&](const difmesh::ColorBy& by, std::size_t v) {
+    difmesh::write_mesh(folder / "m.glb", mesh, {.color = by});
     const Glb glb(test::read_bytes(folder / "m.glb"));
     const Json& accessor = glb.attribute("COLOR_0");
     CHECK(accessor.at("normalized") == true);
     CHECK(glb.component<std::uint16_t>(accessor, v, 3) == 65535);
-    Vec3 colour{};
+    Vec3 color{};
     for (std::size_t c = 0; c < 3; ++c) {
       // Back from linear light to the screen's.
       const double linear = glb.component<std::uint16_t>(accessor, v, c) / 65535.0;
-      colour[c] =
-          linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+      color[c] = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
     }
-    return std::pair{colour, glb.json.at("meshes").at(0).at("extras").at("difmesh")};
+    return std::pair{color, glb.json.at("meshes").at(0).at("extras").at("difmesh")};
   };
-  const auto check_colour = [](const Vec3& found, const Vec3& bytes) {
+  const auto check_color = [](const Vec3& found, const Vec3& bytes) {
     for (std::size_t c = 0; c < 3; ++c) {
       CHECK(std::abs(255.0 * found[c] - bytes[c]) < 1.0);
     }
   };
-  const auto [first, extras] = colour_at({"k"}, 0);
-  check_colour(first, {0x44, 0x01, 0x54});
+  const auto [first, extras] = color_at({"k"}, 0);
+  check_color(first, {0x44, 0x01, 0x54});
   CHECK(extras.at("COLOR_0") ==
         Json({{"attribute", "_K"}, {"map", "viridis"}, {"low", -2.0}, {"high", 6.0}}));
   CHECK(extras.at("scalars").at("_K") == Json({{"name", "k"}, {"low", -2.0}, {"high", 6.0}}));
-  check_colour(colour_at({"k"}, 8).first, {0xfd, 0xe7, 0x25});
-  using difmesh::ColourMap;
-  const auto [grey, even] = colour_at({"k", ColourMap::cool_warm}, 2);
-  check_colour(grey, {0xdd, 0xdd, 0xdd});
+  check_color(color_at({"k"}, 8).first, {0xfd, 0xe7, 0x25});
+  using difmesh::ColorMap;
+  const auto [grey, even] = color_at({"k", ColorMap::cool_warm}, 2);
+  check_color(grey, {0xdd, 0xdd, 0xdd});
   CHECK(even.at("COLOR_0").at("low") == -6.0);
-  check_colour(colour_at({"k", ColourMap::cool_warm, {{-1, 1}}}, 0).first, {0x3b, 0x4c, 0xc0});
-  check_colour(colour_at({"k", ColourMap::cool_warm, {{-1, 1}}}, 8).first, {0xb4, 0x04, 0x26});
+  check_color(color_at({"k", ColorMap::cool_warm, {{-1, 1}}}, 0).first, {0x3b, 0x4c, 0xc0});
+  check_color(color_at({"k", ColorMap::cool_warm, {{-1, 1}}}, 8).first, {0xb4, 0x04, 0x26});
 }
 
 TEST_CASE("names and numbers that glTF cannot hold are refused before a file is made") {
@@ -329,8 +328,8 @@ TEST_CASE("names and numbers that glTF cannot hold are refused before a file is 
   bad.values[4] = std::numeric_limits<double>::quiet_NaN();
   refused(test::with_scalars(mesh, {bad}), {}, {"'k' of vertex 4 is nan"},
           ErrorCode::invalid_value);
-  refused(mesh, {.colour = {{"k"}}}, {"'k'", "none of the scalars"});
-  refused(test::with_scalars(mesh, {nine}), {.colour = {{"k", {}, {{1, 0}}}}}, {"1 to 0"});
+  refused(mesh, {.color = {{"k"}}}, {"'k'", "none of the scalars"});
+  refused(test::with_scalars(mesh, {nine}), {.color = {{"k", {}, {{1, 0}}}}}, {"1 to 0"});
   refused(mesh, {.metres_per_unit = 0.0}, {"metres_per_unit is 0"});
   refused(mesh, {.local_origin = Vec3{0, NAN, 0}}, {"local_origin"});
   refused(mesh, {.most_vertices = 2}, {"most_vertices is 2"});

@@ -325,7 +325,7 @@ TEST_CASE("polygons become fans about their first corner") {
   CHECK(pentagon.triangles == difmesh::Array<Triangle>{{4, 0, 1}, {4, 1, 2}, {4, 2, 3}, {0, 1, 2}});
 }
 
-TEST_CASE("off: comments and colours and texture coordinates and counts on the first line") {
+TEST_CASE("off: comments and colors and texture coordinates and counts on the first line") {
   check_square(
       read("m.off",
            "# a comment\r\n\r\nOFF # more\r\n4 2 5\r\n0 0 0\r\n\t1 0 0 # point\r\n\r\n1 1 0\r\n"

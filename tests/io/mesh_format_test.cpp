@@ -101,7 +101,7 @@ TEST_CASE("options that a format cannot honour are refused with those that can")
     if (!format.is_available()) {
       continue;
     }
-    check(format, format.colours, "colour", {.colour = difmesh::ColourBy{"height"}});
+    check(format, format.colors, "color", {.color = difmesh::ColorBy{"height"}});
     check(format, format.scene, "up", {.up = difmesh::UpAxis::z});
     check(format, format.scene, "metres_per_unit", {.metres_per_unit = 0.5});
     check(format, format.scene, "local_origin", {.local_origin = difmesh::Vec3{0, 0, 0}});

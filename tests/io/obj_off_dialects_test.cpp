@@ -79,7 +79,7 @@ TEST_CASE("obj: normals that go with the vertices are kept and others are not") 
   }
 }
 
-TEST_CASE("obj: weights and colours after a vertex and what comes between are skipped") {
+TEST_CASE("obj: weights and colors after a vertex and what comes between are skipped") {
   check_square(
       read("m.obj",
            "# made by C:\\models\\\nmtllib a.mtl\no square\nv 0 0 0 1\nv 1 0 0 0.5 0.25 1\n"

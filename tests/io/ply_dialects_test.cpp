@@ -22,7 +22,7 @@ using test::check_error;
 using test::TempFolder;
 
 const std::string kXyz = "property float x\nproperty float y\nproperty float z\n";
-const std::vector<std::vector<int>> kSides{{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+const std::vector<std::vector<int>> kFaces{{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
                                            {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
 
 int coordinate(int corner, int axis) {
@@ -46,7 +46,7 @@ std::string vertex_lines(const std::string& behind = "") {
 
 std::string face_lines() {
   std::string lines;
-  for (const std::vector<int>& side : kSides) {
+  for (const std::vector<int>& side : kFaces) {
     lines += "4";
     for (const int corner : side) {
       lines += " " + std::to_string(corner);
@@ -72,7 +72,7 @@ std::string binary_cube(const std::string& types, bool big_endian) {
       bytes += bytes_of(static_cast<float>(coordinate(v, axis)), big_endian);
     }
   }
-  for (const std::vector<int>& side : kSides) {
+  for (const std::vector<int>& side : kFaces) {
     bytes += bytes_of(L{4}, big_endian);
     for (const int corner : side) {
       bytes += bytes_of(static_cast<I>(corner), big_endian);
@@ -255,7 +255,7 @@ TEST_CASE("ply elements and bytes that are left out are told") {
       binary += bytes_of(static_cast<float>(coordinate(v, axis)));
     }
   }
-  for (const std::vector<int>& side : kSides) {
+  for (const std::vector<int>& side : kFaces) {
     binary += "\4";
     for (const int corner : side) {
       binary += bytes_of(corner);

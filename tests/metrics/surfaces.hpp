@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "difmesh/distance.hpp"
+#include "difmesh/metrics/distance.hpp"
 #include "support/triangle_meshes.hpp"
 #include "support/vec3.hpp"
 

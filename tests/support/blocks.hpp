@@ -28,7 +28,7 @@ inline BlockData cut_out(const OwnedField& field, const Index3& low, const Index
   Index3 from{};
   Index3 size{};
   for (std::size_t a = 0; a < 3; ++a) {
-    const bool periodic = options.sides[2 * a] == Side::periodic;
+    const bool periodic = options.boundary[2 * a] == Side::periodic;
     const bool whole = low[a] == 0 && high[a] == field.dims[a];
     data.block.offset[a] = low[a];
     data.block.dims[a] = high[a] - low[a];

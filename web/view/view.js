@@ -54,17 +54,17 @@ class Surface {
   paint(name, low, high, table) {
     const scalars = this.scalars.get(name);
     for (const mesh of this.meshes) {
-      const colours = mesh.geometry.attributes.color;
+      const colors = mesh.geometry.attributes.color;
       const values = scalars && mesh.geometry.attributes[scalars.attribute];
-      for (let v = 0; v < colours.count; ++v) {
-        let colour = kPlain;
+      for (let v = 0; v < colors.count; ++v) {
+        let color = kPlain;
         if (values) {
           const share = high > low ? (values.getX(v) - low) / (high - low) : 0.5;
-          colour = table[Math.round(Math.min(Math.max(share, 0), 1) * (table.length - 1))];
+          color = table[Math.round(Math.min(Math.max(share, 0), 1) * (table.length - 1))];
         }
-        colours.setXYZ(v, colour.r, colour.g, colour.b);
+        colors.setXYZ(v, color.r, color.g, color.b);
       }
-      colours.needsUpdate = true;
+      colors.needsUpdate = true;
     }
   }
 }
@@ -166,17 +166,17 @@ function addPanel(viewer) {
     surfaces.forEach(({material}) => { material.wireframe = event.target.checked; });
     viewer.draw();
   });
-  addColours(viewer);
+  addColors(viewer);
 }
 
-function addColours(viewer) {
+function addColors(viewer) {
   const {surfaces} = viewer;
   const names = new Set(surfaces.flatMap((surface) => [...surface.scalars.keys()]));
   for (const name of names) {
     find('scalars').append(new Option(name, name));
   }
-  const screen = scene.colours.map(([r, g, b]) => `rgb(${r},${g},${b})`);
-  const table = screen.map((colour) => new three.Color(colour));
+  const screen = scene.colors.map(([r, g, b]) => `rgb(${r},${g},${b})`);
+  const table = screen.map((color) => new three.Color(color));
   const context = document.querySelector('#legend canvas').getContext('2d');
   for (let x = 0; x < 256; ++x) {
     context.fillStyle = screen[Math.round(x / 255 * (screen.length - 1))];

@@ -29,7 +29,7 @@ from ._errors import (
 )
 from ._field import Field, FunctionReport, TriangleReport
 from ._files import read_field, write_field
-from ._fractions import Shape, sample_function, sample_mesh, sample_shape
+from ._fractions import Shape, fractions_from_function, fractions_from_mesh, fractions_from_shape
 from ._mesh import Measure, Mesh, Report, WriteReport, read_mesh
 from ._options import choice as _choice
 from ._options import choices as _choices
@@ -38,7 +38,7 @@ from ._reconstruct import GHOST_LAYERS, reconstruct, reconstruct_block, weld
 from ._smoothing import Curvature, curvature, mollify, smooth
 from ._values import fractions_from_labels, fractions_from_values
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 __all__ = [
     "GHOST_LAYERS",
@@ -82,9 +82,9 @@ __all__ = [
     "read_mesh",
     "reconstruct",
     "reconstruct_block",
-    "sample_function",
-    "sample_mesh",
-    "sample_shape",
+    "fractions_from_function",
+    "fractions_from_mesh",
+    "fractions_from_shape",
     "smooth",
     "weld",
     "write_field",
@@ -95,7 +95,7 @@ _PARTS = _choices("PART_")
 
 
 def library_version() -> str:
-    """Version of the library that was loaded, "0.1.0" for instance."""
+    """Version of the library that was loaded, "0.2.0" for instance."""
     text: bytes = _library.library.dif_version_text()
     return text.decode()
 

@@ -59,7 +59,8 @@ class Shape:
         options.kind = choice(kind, _SHAPES, "kind")
         options.centre = triple(centre, "centre")
         options.rotation_degrees = triple(rotation_degrees, "rotation_degrees")
-        known = [name for name, _ in DifShapeOptions._fields_[5:]]
+        common = ("struct_size", "kind", "centre", "rotation_degrees", "reserved")
+        known = [name for name, _ in DifShapeOptions._fields_ if name not in common]
         for name, value in parameters.items():
             if name not in known:
                 raise TypeError(f"no parameter {name!r}; there are {', '.join(known)}")
@@ -131,7 +132,7 @@ def _function_options(
     return options
 
 
-def sample_function(
+def fractions_from_function(
     function: Function,
     dims: Dims,
     spacing: Triple = 1.0,
@@ -175,7 +176,7 @@ def sample_function(
     )
 
 
-def sample_shape(
+def fractions_from_shape(
     shape: Shape,
     dims: Dims,
     spacing: Triple = 1.0,
@@ -187,7 +188,7 @@ def sample_shape(
     threads: int = 0,
     progress: Progress = None,
 ) -> Field:
-    """Volume fractions of a built-in shape; arguments as for sample_function()."""
+    """Volume fractions of a built-in shape; arguments as for fractions_from_function()."""
     if not isinstance(shape, Shape):
         raise TypeError(f"shape must be a Shape, got {type(shape).__name__}")
     relay = Relay(progress)
@@ -203,7 +204,7 @@ def sample_shape(
     )
 
 
-def sample_mesh(
+def fractions_from_mesh(
     mesh: Mesh,
     dims: Dims,
     spacing: Triple = 1.0,
@@ -218,7 +219,7 @@ def sample_mesh(
 ) -> Field:
     """Exact volume fractions of the inside of a closed mesh.
 
-    dims, spacing, origin, progress: as for sample_function().
+    dims, spacing, origin, progress: as for fractions_from_function().
     tolerance: by which a column of cells may miss an integer; [1e-12, 0.25], 1e-9.
     flip: triangles are clockwise seen from outside.
     check_edges: every edge must have its opposite.

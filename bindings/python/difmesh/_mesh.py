@@ -294,8 +294,8 @@ class Mesh:
         24.
 
         glTF files (.glb, .gltf):
-        color_by: the name of scalars to colour by. color_map: "viridis", or "cool_warm", which
-        diverges from 0. color_range: values of the first and the last colour; all there are by
+        color_by: the name of scalars to color by. color_map: "viridis", or "cool_warm", which
+        diverges from 0. color_range: values of the first and the last color; all there are by
         default. up: the axis that points up, "y" or "z". metres_per_unit: the unit of the points.
         local_origin: what positions are relative to, by default the centre of their box.
         most_vertices: of a primitive; larger meshes are split. name: of mesh and node.

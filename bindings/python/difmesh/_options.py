@@ -31,11 +31,11 @@ _NORMALS = choices("NORMALS_")
 _SIDES = choices("SIDE_")
 
 
-def to_options(relay: Relay, sides: str | Sequence[str], **given: Any) -> DifOptions:
+def to_options(relay: Relay, boundary: str | Sequence[str], **given: Any) -> DifOptions:
     """The library's options; None leaves the default."""
     options = defaults(DifOptions, "dif_options_init")
     options.progress = relay.progress
-    options.sides = six_sides(sides)
+    options.boundary = six_kinds(boundary)
     for name, value in given.items():
         if name == "placement":
             options.placement = choice(value, _PLACEMENTS, name)
@@ -48,11 +48,13 @@ def to_options(relay: Relay, sides: str | Sequence[str], **given: Any) -> DifOpt
     return options
 
 
-def six_sides(sides: str | Sequence[str]) -> tuple[int, ...]:
+def six_kinds(boundary: str | Sequence[str]) -> tuple[int, ...]:
     """The constants of one name for all sides, or of six."""
-    six = (sides,) * 6 if isinstance(sides, str) else tuple(sides)
+    six = (boundary,) * 6 if isinstance(boundary, str) else tuple(boundary)
     if len(six) != 6:
-        raise ValueError(f"sides are {sides!r}; one name or six are needed, from x low to z high")
+        raise ValueError(
+            f"boundary is {boundary!r}; one name or six are needed, from x low to z high"
+        )
     return tuple(choice(side, _SIDES, "a side") for side in six)
 
 

@@ -34,7 +34,7 @@ def normals(
     origin: Optional[Triple] = None,
     axes: str = "kji",
     normals: str = "height_function",
-    sides: Union[str, Sequence[str]] = "open",
+    boundary: Union[str, Sequence[str]] = "open",
     purity_tolerance: Optional[float] = None,
     overshoot_bound: Optional[float] = None,
     threads: int = 0,
@@ -49,7 +49,7 @@ def normals(
     field, array = field_struct(fractions, spacing, origin, axes)
     options = to_options(
         relay,
-        sides,
+        boundary,
         normals=normals,
         purity_tolerance=purity_tolerance,
         overshoot_bound=overshoot_bound,
@@ -82,7 +82,7 @@ def cell_planes(
     origin: Optional[Triple] = None,
     axes: str = "kji",
     normals: str = "height_function",
-    sides: Union[str, Sequence[str]] = "open",
+    boundary: Union[str, Sequence[str]] = "open",
     purity_tolerance: Optional[float] = None,
     threads: int = 0,
     progress: Progress = None,
@@ -101,7 +101,7 @@ def cell_planes(
     relay = Relay(progress)
     field, array = field_struct(fractions, spacing, origin, axes)
     options = to_options(
-        relay, sides, normals=normals, purity_tolerance=purity_tolerance, threads=threads
+        relay, boundary, normals=normals, purity_tolerance=purity_tolerance, threads=threads
     )
     result = Planes(np.empty(index.shape), np.empty(len(index)), np.empty(len(index), np.int32))
     relay.call(

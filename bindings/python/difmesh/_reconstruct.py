@@ -32,7 +32,7 @@ def reconstruct(
     labels: Optional[Labels] = None,
     placement: str = "plic",
     normals: str = "height_function",
-    sides: Union[str, Sequence[str]] = "open",
+    boundary: Union[str, Sequence[str]] = "open",
     vertex_normals: bool = False,
     edge_ids: bool = False,
     purity_tolerance: Optional[float] = None,
@@ -67,8 +67,8 @@ def reconstruct(
         "midpoint".
     normals: how those of cells are estimated: "height_function", "myc", "youngs", "elvira" or
         "lvira".
-    sides: what lies beyond the domain: "open", "mirror", "periodic", "empty" or "full"; one for all
-        or six: x low, x high, y low, y high, z low, z high.
+    boundary: what lies beyond the domain: "open", "mirror", "periodic", "empty" or "full"; one
+        for all or six: x low, x high, y low, y high, z low, z high.
     vertex_normals, edge_ids: whether the mesh gets them.
     purity_tolerance: a fraction up to this is empty, from 1 - this on full; [0, 0.1], 1e-6.
     overshoot_bound: fractions so far outside [0, 1] are clamped; [0, 1], 0.1.
@@ -88,7 +88,7 @@ def reconstruct(
     field, array = field_struct(asked, spacing, origin, axes)
     options = to_options(
         relay,
-        sides,
+        boundary,
         placement=placement,
         normals=normals,
         vertex_normals=bool(vertex_normals),
@@ -119,7 +119,7 @@ def reconstruct_block(
     axes: str = "kji",
     placement: str = "plic",
     normals: str = "height_function",
-    sides: Union[str, Sequence[str]] = "open",
+    boundary: Union[str, Sequence[str]] = "open",
     vertex_normals: bool = False,
     purity_tolerance: Optional[float] = None,
     overshoot_bound: Optional[float] = None,
@@ -132,13 +132,14 @@ def reconstruct_block(
     fractions: of the cells [offset - ghost_low, offset + dims + ghost_high) of the whole grid,
         which has grid_dims cells; GHOST_LAYERS ghost cells are needed beyond each face of the
         block, as far as the domain reaches. All of these in x, y, z.
-    spacing, origin, sides: of the whole grid. Others as for reconstruct(). The mesh has edge_ids.
+    spacing, origin, boundary: of the whole grid. Others as for reconstruct(). The mesh has
+    edge_ids.
     """
     relay = Relay(progress)
     field, array = field_struct(fractions, spacing, origin, axes)
     options = to_options(
         relay,
-        sides,
+        boundary,
         placement=placement,
         normals=normals,
         vertex_normals=bool(vertex_normals),

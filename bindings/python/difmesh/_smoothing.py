@@ -14,7 +14,7 @@ from ._field import Field
 from ._library import defaults, library
 from ._memory import Triple, address_of, field_struct, floats, grid_struct
 from ._mesh import Mesh, new_mesh_handle
-from ._options import choice, choices, int32, six_sides
+from ._options import choice, choices, int32, six_kinds
 from ._structs import DifCurvatureOptions, DifMollifyOptions, DifSmoothingOptions
 
 _KINDS = choices("SMOOTHING_")
@@ -137,7 +137,7 @@ def mollify(
     fractions: Any,
     *,
     radius: float = 2.0,
-    sides: Union[str, Sequence[str]] = "open",
+    boundary: Union[str, Sequence[str]] = "open",
     spacing: Optional[Triple] = None,
     origin: Optional[Triple] = None,
     axes: str = "kji",
@@ -148,14 +148,14 @@ def mollify(
 
     fractions, spacing, origin, axes, threads, progress: as for reconstruct().
     radius: where the kernel ends, in cells; [1, 8].
-    sides: as for reconstruct(); "open" counts as "mirror" here, and "empty" and "full" let
+    boundary: as for reconstruct(); "open" counts as "mirror" here, and "empty" and "full" let
         material out or in.
     """
     relay = Relay(progress)
     field, array = field_struct(fractions, spacing, origin, axes)
     options = defaults(DifMollifyOptions, "dif_mollify_options_init")
     options.radius = radius
-    options.sides = six_sides(sides)
+    options.boundary = six_kinds(boundary)
     options.threads = int32(threads, "threads")
     options.progress = relay.progress
     values = np.empty(tuple(field.dims)[::-1])

@@ -18,12 +18,12 @@ class DifField(Sized):
     _fields_ = [
         ("struct_size", c_uint64),
         ("data", c_void_p),
-        ("type", c_int32),
-        ("reserved", c_int32),
         ("dims", c_int64 * 3),
         ("strides", c_int64 * 3),
         ("origin", c_double * 3),
         ("spacing", c_double * 3),
+        ("type", c_int32),
+        ("reserved", c_int32),
     ]
 
 
@@ -32,16 +32,16 @@ class DifOptions(Sized):
         ("struct_size", c_uint64),
         ("placement", c_int32),
         ("normals", c_int32),
-        ("sides", c_int32 * 6),
+        ("boundary", c_int32 * 6),
         ("vertex_normals", c_int32),
         ("edge_ids", c_int32),
         ("purity_tolerance", c_double),
         ("overshoot_bound", c_double),
         ("clearance", c_double),
-        ("threads", c_int32),
-        ("reserved", c_int32),
         ("progress", DifProgress),
         ("progress_user", c_void_p),
+        ("threads", c_int32),
+        ("reserved", c_int32),
     ]
 
 
@@ -61,14 +61,14 @@ class DifReport(Sized):
         ("newton_steps_max", c_int64),
         ("non_monotone_edges", c_int64),
         ("enclosed_volume", c_double),
-        ("closed", c_int32),
-        ("reserved", c_int32),
         ("seconds_classify", c_double),
         ("seconds_normals", c_double),
         ("seconds_count", c_double),
         ("seconds_vertices", c_double),
         ("seconds_triangles", c_double),
         ("seconds_total", c_double),
+        ("closed", c_int32),
+        ("reserved", c_int32),
     ]
 
 
@@ -101,10 +101,10 @@ class DifFunctionOptions(Sized):
         ("max_calls_per_cell", c_int64),
         ("gradient", DifGradient),
         ("gradient_user", c_void_p),
-        ("threads", c_int32),
-        ("reserved", c_int32),
         ("progress", DifProgress),
         ("progress_user", c_void_p),
+        ("threads", c_int32),
+        ("reserved", c_int32),
     ]
 
 
@@ -131,11 +131,9 @@ class DifTriangleOptions(Sized):
         ("flip", c_int32),
         ("check_edges", c_int32),
         ("threads", c_int32),
-        ("reserved", c_int32),
+        ("overlaps", c_int32),
         ("progress", DifProgress),
         ("progress_user", c_void_p),
-        ("overlaps", c_int32),
-        ("reserved_2", c_int32),
     ]
 
 
@@ -168,8 +166,6 @@ class DifTriangleReport(Sized):
 class DifShapeOptions(Sized):
     _fields_ = [
         ("struct_size", c_uint64),
-        ("kind", c_int32),
-        ("reserved", c_int32),
         ("centre", c_double * 3),
         ("rotation_degrees", c_double * 3),
         ("radius", c_double),
@@ -180,6 +176,8 @@ class DifShapeOptions(Sized):
         ("dimples", c_int64),
         ("dimple_radius", c_double),
         ("dimple_depth", c_double),
+        ("kind", c_int32),
+        ("reserved", c_int32),
     ]
 
 
@@ -187,11 +185,11 @@ class DifMollifyOptions(Sized):
     _fields_ = [
         ("struct_size", c_uint64),
         ("radius", c_double),
-        ("sides", c_int32 * 6),
-        ("threads", c_int32),
-        ("reserved", c_int32),
         ("progress", DifProgress),
         ("progress_user", c_void_p),
+        ("boundary", c_int32 * 6),
+        ("threads", c_int32),
+        ("reserved", c_int32),
     ]
 
 
@@ -300,9 +298,9 @@ class DifMeshWriteOptions(Sized):
         ("position_bits", c_int32),
         ("normal_bits", c_int32),
         ("generic_bits", c_int32),
-        ("colour_map", c_int32),
-        ("colour_by", c_char_p),
-        ("colour_range", c_double * 2),
+        ("color_map", c_int32),
+        ("color_by", c_char_p),
+        ("color_range", c_double * 2),
         ("cell_size", c_double),
         ("metres_per_unit", c_double),
         ("local_origin", c_double * 3),
@@ -320,12 +318,12 @@ class DifMeshWriteReport(Sized):
         ("vertices", c_int64),
         ("triangles", c_int64),
         ("primitives", c_int64),
-        ("position_bits", c_int32),
-        ("reserved", c_int32),
         ("position_error", c_double),
         ("local_origin", c_double * 3),
         ("collapsed_triangles", c_int64),
         ("warning", c_char_p),
+        ("position_bits", c_int32),
+        ("reserved", c_int32),
     ]
 
 

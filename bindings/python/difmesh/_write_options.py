@@ -10,11 +10,11 @@ from ._options import choice, choices, int32
 from ._structs import DifMeshWriteOptions
 
 _DRACO_METHODS = choices("DRACO_")
-_COLOUR_MAPS = choices("COLOUR_MAP_")
+_COLOR_MAPS = choices("COLOR_MAP_")
 _UP_AXES = choices("UP_")
 _CHOICES = {
     "draco_method": ("draco_method", _DRACO_METHODS),
-    "color_map": ("colour_map", _COLOUR_MAPS),
+    "color_map": ("color_map", _COLOR_MAPS),
     "up": ("up", _UP_AXES),
 }
 #: ctypes would cut off their upper bits.
@@ -38,7 +38,7 @@ def to_write_options(
         low, high = (float(value) for value in color_range)
         if low == 0.0 and high == 0.0:  # which is the library's word for no range
             raise ValueError("color_range has no extent about 0")
-        options.colour_range = (low, high)
+        options.color_range = (low, high)
     if local_origin is not None:
         options.has_local_origin = 1
         options.local_origin = triple(local_origin, "local_origin")
@@ -49,7 +49,7 @@ def to_write_options(
             field, names = _CHOICES[name]
             setattr(options, field, choice(value, names, name))
         elif name in ("color_by", "format", "name"):
-            setattr(options, name.replace("color", "colour"), text_bytes(value, name))
+            setattr(options, name.replace("color", "color"), text_bytes(value, name))
         elif name in _INT32:
             setattr(options, name, int32(value, name))
         else:

@@ -86,7 +86,7 @@ extern "C" {
 
 /* Version of this header; dif_version() tells that of the library. */
 #define DIF_VERSION_MAJOR 0
-#define DIF_VERSION_MINOR 1
+#define DIF_VERSION_MINOR 2
 #define DIF_VERSION_PATCH 0
 
 /* Status of a call. Values are frozen. */
@@ -108,18 +108,18 @@ enum {
 };
 
 /* The constant's name, "DIF_OK" and so on; "unknown status" for other values. Never NULL; static.
- * Since 0.1. */
+ * Since 0.2. */
 DIF_API const char* dif_status_name(dif_status status);
 
 /* What went wrong in the last call that failed on this thread: one English sentence in UTF-8 that
  * names the argument, cell or file, at most 1023 bytes; "" if none failed. Valid until the next
- * failing call on this thread. Never NULL. Since 0.1. */
+ * failing call on this thread. Never NULL. Since 0.2. */
 DIF_API const char* dif_last_message(void);
 
-/* Version of the library, 1000000 major + 1000 minor + patch. Since 0.1. */
+/* Version of the library, 1000000 major + 1000 minor + patch. Since 0.2. */
 DIF_API int32_t dif_version(void);
 
-/* The same as text, "0.1.0". Static. Since 0.1. */
+/* The same as text, "0.2.0". Static. Since 0.2. */
 DIF_API const char* dif_version_text(void);
 
 /* Parts that a build may lack; their functions then return DIF_ERROR_UNSUPPORTED. */
@@ -131,7 +131,7 @@ enum {
   DIF_PART_DRACO = 5     /* the format .drc, and compressed glTF */
 };
 
-/* 1 if this build has the part, 0 if not or if there is no such part. Since 0.1. */
+/* 1 if this build has the part, 0 if not or if there is no such part. Since 0.2. */
 DIF_API int32_t dif_has(int32_t part);
 
 /* Called now and then during long work, always on the thread that called the library, with the
@@ -150,18 +150,18 @@ enum { DIF_FLOAT32 = 1, DIF_FLOAT64 = 2, DIF_UINT8 = 3, DIF_UINT16 = 4 };
 typedef struct dif_field {
   uint64_t struct_size;
   const void* data;   /* element of cell (0, 0, 0), aligned for its type */
-  int32_t type;       /* DIF_FLOAT64, ...; of values, see section 5, also DIF_INT8, ... */
-  int32_t reserved;   /* 0 */
   int64_t dims[3];    /* cells in x, y, z; >= 1 each */
   int64_t strides[3]; /* elements from a cell to the next one in x, y, z; may be 0 or negative */
   double origin[3];   /* low corner of cell (0, 0, 0) */
   double spacing[3];  /* edges of a cell, in [2^-300, 2^300] */
+  int32_t type;       /* DIF_FLOAT64, ...; of values, see section 5, also DIF_INT8, ... */
+  int32_t reserved;   /* 0 */
 } dif_field;
 
 /* Describes `dims[0]` x `dims[1]` x `dims[2]` cells that lie without gaps, x fastest, as in a C
  * array [nz][ny][nx] or a Fortran array (nx, ny, nz); origin 0, spacing 1. Set other strides,
  * origin and spacing afterwards. Nothing of `data` is read here.
- * Errors: INVALID_ARGUMENT, INVALID_GRID (a dim < 1), TOO_LARGE, STRUCT. Since 0.1. */
+ * Errors: INVALID_ARGUMENT, INVALID_GRID (a dim < 1), TOO_LARGE, STRUCT. Since 0.2. */
 DIF_API dif_status dif_field_init(dif_field* field, uint64_t struct_size, const void* data,
                                   int32_t type, const int64_t dims[3]);
 
@@ -198,19 +198,19 @@ typedef struct dif_options {
   uint64_t struct_size;
   int32_t placement;       /* DIF_PLACEMENT_... */
   int32_t normals;         /* DIF_NORMALS_... */
-  int32_t sides[6];        /* DIF_SIDE_...: x low, x high, y low, y high, z low, z high */
+  int32_t boundary[6];     /* DIF_SIDE_...: x low, x high, y low, y high, z low, z high */
   int32_t vertex_normals;  /* 1: the mesh gets unit normals at its vertices; default 0 */
   int32_t edge_ids;        /* 1: the mesh gets the names of its vertices' edges; default 0 */
   double purity_tolerance; /* fraction <= this is empty, >= 1 - this full; [0, 0.1]; 1e-6 */
   double overshoot_bound;  /* fractions so far outside [0, 1] are clamped; [0, 1]; 0.1 */
   double clearance;      /* of vertices from the edges' ends, over the edge; [1e-13, 0.25]; 1e-12 */
-  int32_t threads;       /* 0: as many as the machine has */
-  int32_t reserved;      /* 0 */
   dif_progress progress; /* may be NULL */
   void* progress_user;
+  int32_t threads;  /* 0: as many as the machine has */
+  int32_t reserved; /* 0 */
 } dif_options;
 
-/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
+/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.2. */
 DIF_API dif_status dif_options_init(dif_options* options, uint64_t struct_size);
 
 /* A triangle mesh. Triangles are counter-clockwise seen from the empty side. */
@@ -225,18 +225,18 @@ typedef struct dif_mesh dif_mesh;
  * value: in masks and segmentations no cell is full, and none is half full or there are at most 16
  * different values. OUT_OF_MEMORY comes before the pass over the field where that is known already.
  * Errors: INVALID_ARGUMENT, INVALID_GRID, INVALID_VALUE, STRUCT, TOO_LARGE, OUT_OF_MEMORY,
- * CANCELLED. Cost: one pass over the field, then O(interfacial cells). Since 0.1. */
+ * CANCELLED. Cost: one pass over the field, then O(interfacial cells). Since 0.2. */
 DIF_API dif_status dif_reconstruct(const dif_field* field, const dif_options* options,
                                    dif_mesh** mesh);
 
-/* Frees a mesh; NULL is fine. Since 0.1. */
+/* Frees a mesh; NULL is fine. Since 0.2. */
 DIF_API void dif_mesh_free(dif_mesh* mesh);
 
 /* Borrowed: three coordinates per vertex. NULL and 0 for a mesh without vertices. Errors:
- * INVALID_ARGUMENT, also for the following. Since 0.1. */
+ * INVALID_ARGUMENT, also for the following. Since 0.2. */
 DIF_API dif_status dif_mesh_positions(const dif_mesh* mesh, const double** positions,
                                       int64_t* vertices);
-/* Borrowed: three indices of vertices per triangle, from 0. Since 0.1. */
+/* Borrowed: three indices of vertices per triangle, from 0. Since 0.2. */
 DIF_API dif_status dif_mesh_triangles(const dif_mesh* mesh, const uint32_t** indices,
                                       int64_t* triangles);
 /* Borrowed: a unit vector per vertex, out of the material; NULL and 0 if the mesh has none. Since
@@ -245,7 +245,7 @@ DIF_API dif_status dif_mesh_normals(const dif_mesh* mesh, const double** normals
                                     int64_t* vertices);
 /* Borrowed: per vertex the name of the edge that it lies on, ascending; NULL and 0 if the mesh has
  * none. id = 3 (((k+1)(ny+2) + (j+1))(nx+2) + (i+1)) + axis, (i, j, k) being the cell at the edge's
- * lower end. Since 0.1. */
+ * lower end. Since 0.2. */
 DIF_API dif_status dif_mesh_edge_ids(const dif_mesh* mesh, const uint64_t** ids, int64_t* vertices);
 
 /* Facts about a reconstruction. */
@@ -264,25 +264,25 @@ typedef struct dif_report {
   int64_t newton_steps_max;
   int64_t non_monotone_edges; /* solved edges along which the window's fraction falls */
   double enclosed_volume;     /* signed; 0 where not closed */
-  int32_t closed;             /* 1: no boundary edge; an empty mesh is closed */
-  int32_t reserved;
-  double seconds_classify; /* wall time: the pass over the field */
-  double seconds_normals;  /* normals and planes */
-  double seconds_count;    /* counting and allocation of the output */
+  double seconds_classify;    /* wall time: the pass over the field */
+  double seconds_normals;     /* normals and planes */
+  double seconds_count;       /* counting and allocation of the output */
   double seconds_vertices;
   double seconds_triangles;
   double seconds_total;
+  int32_t closed; /* 1: no boundary edge; an empty mesh is closed */
+  int32_t reserved;
 } dif_report;
 
-/* Prepares an output struct. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
+/* Prepares an output struct. Errors: INVALID_ARGUMENT, STRUCT. Since 0.2. */
 DIF_API dif_status dif_report_init(dif_report* report, uint64_t struct_size);
-/* Errors: INVALID_ARGUMENT (also for a mesh that no reconstruction made), STRUCT. Since 0.1. */
+/* Errors: INVALID_ARGUMENT (also for a mesh that no reconstruction made), STRUCT. Since 0.2. */
 DIF_API dif_status dif_mesh_report(const dif_mesh* mesh, dif_report* report);
 
 /* ============================== 3. More about meshes ========================================== */
 
 /* A mesh from arrays, which are copied. Coordinates are not looked at.
- * Errors: INVALID_ARGUMENT (an index out of range is named), TOO_LARGE, OUT_OF_MEMORY. Since 0.1.
+ * Errors: INVALID_ARGUMENT (an index out of range is named), TOO_LARGE, OUT_OF_MEMORY. Since 0.2.
  * */
 DIF_API dif_status dif_mesh_from_arrays(const double positions[], int64_t vertices,
                                         const uint32_t indices[], int64_t triangles,
@@ -290,7 +290,7 @@ DIF_API dif_status dif_mesh_from_arrays(const double positions[], int64_t vertic
 
 /* Gives a mesh normals, three numbers per vertex, or names of edges; they are copied. `normals` and
  * `ids` may be NULL, which removes what there is.
- * Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. Since 0.1. */
+ * Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. Since 0.2. */
 DIF_API dif_status dif_mesh_set_normals(dif_mesh* mesh, const double normals[]);
 DIF_API dif_status dif_mesh_set_edge_ids(dif_mesh* mesh, const uint64_t ids[]);
 
@@ -298,13 +298,13 @@ DIF_API dif_status dif_mesh_set_edge_ids(dif_mesh* mesh, const uint64_t ids[]);
  * underscores. Those of a file come with dif_mesh_read(); PLY, glTF and Draco files take them. */
 
 /* Gives a mesh scalars, one number per vertex, copied, in place of those of the same name.
- * `values` may be NULL, which removes these. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. Since 0.1. */
+ * `values` may be NULL, which removes these. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. Since 0.2. */
 DIF_API dif_status dif_mesh_set_scalars(dif_mesh* mesh, const char* name, const double values[]);
 /* Borrowed: the name of the scalars number `index`, from 0; NULL from their count on. Errors:
- * INVALID_ARGUMENT. Since 0.1. */
+ * INVALID_ARGUMENT. Since 0.2. */
 DIF_API dif_status dif_mesh_scalars_name(const dif_mesh* mesh, int64_t index, const char** name);
 /* Borrowed: the scalars of a name; NULL and 0 if the mesh has none of it. Errors: INVALID_ARGUMENT.
- * Since 0.1. */
+ * Since 0.2. */
 DIF_API dif_status dif_mesh_scalars(const dif_mesh* mesh, const char* name, const double** values,
                                     int64_t* vertices);
 
@@ -314,7 +314,7 @@ enum { DIF_INT32 = 11, DIF_UINT32 = 12, DIF_INT64 = 13 };
 /* Copies positions or normals into the caller's array: the numbers of vertex v go to elements
  * v stride, v stride + 1, v stride + 2 of `out`, which has room for `capacity` elements. `type` is
  * DIF_FLOAT32 (rounded to nearest) or DIF_FLOAT64.
- * Errors: INVALID_ARGUMENT (a stride < 3, too little room, or no normals). Since 0.1. */
+ * Errors: INVALID_ARGUMENT (a stride < 3, too little room, or no normals). Since 0.2. */
 DIF_API dif_status dif_mesh_copy_positions(const dif_mesh* mesh, int32_t type, int64_t stride,
                                            int64_t capacity, void* out);
 DIF_API dif_status dif_mesh_copy_normals(const dif_mesh* mesh, int32_t type, int64_t stride,
@@ -322,7 +322,7 @@ DIF_API dif_status dif_mesh_copy_normals(const dif_mesh* mesh, int32_t type, int
 
 /* Copies triangles likewise. `type` is DIF_INT32, DIF_UINT32 or DIF_INT64; `first_vertex` is what
  * the first vertex is called: 0, or 1 in Fortran.
- * Errors: as above, and TOO_LARGE if an index does not fit. Since 0.1. */
+ * Errors: as above, and TOO_LARGE if an index does not fit. Since 0.2. */
 DIF_API dif_status dif_mesh_copy_triangles(const dif_mesh* mesh, int32_t type, int64_t first_vertex,
                                            int64_t stride, int64_t capacity, void* out);
 
@@ -334,12 +334,12 @@ DIF_API dif_status dif_mesh_copy_triangles(const dif_mesh* mesh, int32_t type, i
 /* Shares of `count` cells of one spacing below their planes. normals: 3 count numbers.
  * Errors: INVALID_ARGUMENT (a normal that is 0 or not finite, an offset that is not; its index is
  * named), INVALID_GRID (spacing). On an error, fractions of planes before the bad one are written.
- * Cost: some 10 ns each. Since 0.1. */
+ * Cost: some 10 ns each. Since 0.2. */
 DIF_API dif_status dif_plane_fraction(const double spacing[3], int64_t count,
                                       const double normals[], const double offsets[],
                                       double fractions[]);
 /* The inverse, exact to 1e-14 in the fraction: offsets of planes below which `fractions` of the
- * cells lie, clamped to [0, 1]. Errors: likewise. Cost: up to 100 ns each. Since 0.1. */
+ * cells lie, clamped to [0, 1]. Errors: likewise. Cost: up to 100 ns each. Since 0.2. */
 DIF_API dif_status dif_plane_offset(const double spacing[3], int64_t count, const double normals[],
                                     const double fractions[], double offsets[]);
 
@@ -357,7 +357,7 @@ enum {
  * count numbers; offsets, sources: count. `normals`, `offsets` and `sources` may be NULL. The field
  * is read only near these cells; NaN there count as some fraction.
  * Errors: as dif_reconstruct(). Cost: 0.05 to 0.4 microseconds per cell, 7 to 9 by ELVIRA,
- * 1 to 2 by LVIRA. Since 0.1. */
+ * 1 to 2 by LVIRA. Since 0.2. */
 DIF_API dif_status dif_cell_planes(const dif_field* field, const dif_options* options,
                                    int64_t count, const int64_t cells[], double normals[],
                                    double offsets[], int32_t sources[]);
@@ -375,13 +375,13 @@ typedef struct dif_plane_arrays {
   int64_t strides[3]; /* elements, the same for all arrays */
 } dif_plane_arrays;
 
-/* Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
+/* Errors: INVALID_ARGUMENT, STRUCT. Since 0.2. */
 DIF_API dif_status dif_plane_arrays_init(dif_plane_arrays* arrays, uint64_t struct_size);
 
 /* The planes of all interfacial cells of a field, into arrays of the caller; other cells get 0. The
  * whole field is checked, as dif_reconstruct() does. On an error the arrays are untouched, or on
  * CANCELLED and OUT_OF_MEMORY written in part.
- * Errors: as dif_reconstruct(). Cost: one pass over field and arrays, and as above. Since 0.1. */
+ * Errors: as dif_reconstruct(). Cost: one pass over field and arrays, and as above. Since 0.2. */
 DIF_API dif_status dif_field_planes(const dif_field* field, const dif_options* options,
                                     const dif_plane_arrays* arrays);
 
@@ -395,7 +395,7 @@ typedef struct dif_grid {
   double spacing[3]; /* edges of a cell, in [2^-300, 2^300] */
 } dif_grid;
 
-/* Origin 0, spacing 1, which can be set afterwards. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
+/* Origin 0, spacing 1, which can be set afterwards. Errors: INVALID_ARGUMENT, STRUCT. Since 0.2. */
 DIF_API dif_status dif_grid_init(dif_grid* grid, uint64_t struct_size, const int64_t dims[3]);
 
 /* Writes f(points[i]) to values[i], i < count, f < 0 inside. Called from several threads at once
@@ -412,13 +412,13 @@ typedef struct dif_function_options {
   int64_t max_calls_per_cell; /* [1000, 1e9]; 200000 */
   dif_gradient gradient;      /* may be NULL; makes cells in which f wiggles safer */
   void* gradient_user;
-  int32_t threads;
-  int32_t reserved;
   dif_progress progress;
   void* progress_user;
+  int32_t threads;
+  int32_t reserved;
 } dif_function_options;
 
-/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
+/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.2. */
 DIF_API dif_status dif_function_options_init(dif_function_options* options, uint64_t struct_size);
 
 typedef struct dif_function_report {
@@ -435,13 +435,13 @@ typedef struct dif_function_report {
   double seconds;
 } dif_function_report;
 
-/* Prepares an output struct. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
+/* Prepares an output struct. Errors: INVALID_ARGUMENT, STRUCT. Since 0.2. */
 DIF_API dif_status dif_function_report_init(dif_function_report* report, uint64_t struct_size);
 
 /* Volume fractions of {f < 0}, by quadrature; see fractions_from_function.hpp for what is assumed
  * of f. `fractions` has one element per cell of the grid, x fastest. `report` may be NULL.
  * Errors: INVALID_ARGUMENT, INVALID_GRID, INVALID_VALUE (f is NaN or infinite; the point is named),
- * STRUCT, TOO_LARGE, OUT_OF_MEMORY, CANCELLED. Since 0.1. */
+ * STRUCT, TOO_LARGE, OUT_OF_MEMORY, CANCELLED. Since 0.2. */
 DIF_API dif_status dif_fractions_from_function(const dif_grid* grid, dif_function f, void* user,
                                                const dif_function_options* options,
                                                dif_function_report* report, double fractions[]);
@@ -457,20 +457,17 @@ enum {
 
 typedef struct dif_triangle_options {
   uint64_t struct_size;
-  double
-      tolerance; /* by which a column may miss an integer, and of a cell that may be covered twice
-                     * with REFUSE; [1e-12, 0.25]; 1e-9 */
-  int32_t flip;  /* 1: triangles are clockwise seen from outside; default 0 */
+  double tolerance;    /* by which a column may miss an integer, and of a cell that may be covered
+                        * twice with REFUSE; [1e-12, 0.25]; 1e-9 */
+  int32_t flip;        /* 1: triangles are clockwise seen from outside; default 0 */
   int32_t check_edges; /* 1, the default: every edge must have its opposite */
   int32_t threads;
-  int32_t reserved;
+  int32_t overlaps; /* DIF_OVERLAPS_... */
   dif_progress progress;
   void* progress_user;
-  int32_t overlaps; /* DIF_OVERLAPS_... */
-  int32_t reserved_2;
 } dif_triangle_options;
 
-/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
+/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.2. */
 DIF_API dif_status dif_triangle_options_init(dif_triangle_options* options, uint64_t struct_size);
 
 typedef struct dif_triangle_report {
@@ -498,14 +495,14 @@ typedef struct dif_triangle_report {
   int64_t undecided_cell[3]; /* the first with the largest */
 } dif_triangle_report;
 
-/* Prepares an output struct. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
+/* Prepares an output struct. Errors: INVALID_ARGUMENT, STRUCT. Since 0.2. */
 DIF_API dif_status dif_triangle_report_init(dif_triangle_report* report, uint64_t struct_size);
 
 /* Exact volume fractions of the inside of a closed mesh. `fractions` has one element per cell of
  * the grid, x fastest. `report` may be NULL.
  * Errors: INVALID_ARGUMENT (also an open mesh, mixed orientation, a mesh or part inside out; edge,
  * triangles, column or cell are named), INVALID_GRID, STRUCT, TOO_LARGE, OUT_OF_MEMORY, CANCELLED.
- * Since 0.1. */
+ * Since 0.2. */
 DIF_API dif_status dif_fractions_from_mesh(const dif_grid* grid, const dif_mesh* mesh,
                                            const dif_triangle_options* options,
                                            dif_triangle_report* report, double fractions[]);
@@ -522,8 +519,6 @@ enum {
 
 typedef struct dif_shape_options {
   uint64_t struct_size;
-  int32_t kind;     /* DIF_SHAPE_...; SPHERE */
-  int32_t reserved; /* 0 */
   double centre[3];
   double rotation_degrees[3]; /* about the fixed axes x, then y, then z */
   double radius;              /* sphere, torus, golf ball; 1 */
@@ -534,27 +529,29 @@ typedef struct dif_shape_options {
   int64_t dimples;            /* golf ball; [1, 5000]; 333 */
   double dimple_radius;       /* golf ball, over radius; 0.08 */
   double dimple_depth;        /* golf ball, over radius; 0.012 */
+  int32_t kind;               /* DIF_SHAPE_...; SPHERE */
+  int32_t reserved;           /* 0 */
 } dif_shape_options;
 
-/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
+/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.2. */
 DIF_API dif_status dif_shape_options_init(dif_shape_options* options, uint64_t struct_size);
 
 /* A shape that cannot be changed. */
 typedef struct dif_shape dif_shape;
 
-/* Errors: INVALID_ARGUMENT naming the option, STRUCT, OUT_OF_MEMORY. Since 0.1. */
+/* Errors: INVALID_ARGUMENT naming the option, STRUCT, OUT_OF_MEMORY. Since 0.2. */
 DIF_API dif_status dif_shape_create(const dif_shape_options* options, dif_shape** shape);
-/* Frees a shape; NULL is fine. Since 0.1. */
+/* Frees a shape; NULL is fine. Since 0.2. */
 DIF_API void dif_shape_free(dif_shape* shape);
-/* A box that encloses the shape: low and high are three numbers each. Since 0.1. */
+/* A box that encloses the shape: low and high are three numbers each. Since 0.2. */
 DIF_API dif_status dif_shape_bounds(const dif_shape* shape, double low[3], double high[3]);
-/* Volume inside, in closed form or to 1e-14. Since 0.1. */
+/* Volume inside, in closed form or to 1e-14. Since 0.2. */
 DIF_API dif_status dif_shape_volume(const dif_shape* shape, double* volume);
-/* Signed distances of points to the surface, < 0 inside. Errors: INVALID_ARGUMENT. Since 0.1. */
+/* Signed distances of points to the surface, < 0 inside. Errors: INVALID_ARGUMENT. Since 0.2. */
 DIF_API dif_status dif_shape_distances(const dif_shape* shape, int64_t count, const double points[],
                                        double distances[]);
 /* As dif_fractions_from_function(), of a shape. options->gradient must be NULL; `report` may be
- * NULL. Since 0.1. */
+ * NULL. Since 0.2. */
 DIF_API dif_status dif_fractions_from_shape(const dif_grid* grid, const dif_shape* shape,
                                             const dif_function_options* options,
                                             dif_function_report* report, double fractions[]);
@@ -567,34 +564,34 @@ enum { DIF_INT8 = 14, DIF_INT16 = 15, DIF_UINT64 = 16 };
 
 /* (value - empty) / (full - empty), values beyond counting as 0 or 1; `full` may be the smaller
  * one. NaN stays NaN. Errors: INVALID_ARGUMENT (the two are equal or not finite), INVALID_GRID,
- * STRUCT. Since 0.1. */
+ * STRUCT. Since 0.2. */
 DIF_API dif_status dif_fractions_from_values(const dif_field* values, double empty, double full,
                                              double fractions[]);
 /* 255, that is 1, where a value is one of the labels, else 0. Exact for integers of all sizes.
- * Errors: INVALID_ARGUMENT (also for no labels), INVALID_GRID, STRUCT, OUT_OF_MEMORY. Since 0.1. */
+ * Errors: INVALID_ARGUMENT (also for no labels), INVALID_GRID, STRUCT, OUT_OF_MEMORY. Since 0.2. */
 DIF_API dif_status dif_fractions_from_labels(const dif_field* values, int64_t count,
                                              const int64_t labels[], uint8_t fractions[]);
 /* The lowest and the highest value; NaN takes no part, and both are NaN where there is nothing
- * else. Errors: INVALID_ARGUMENT, INVALID_GRID, STRUCT. Since 0.1. */
+ * else. Errors: INVALID_ARGUMENT, INVALID_GRID, STRUCT. Since 0.2. */
 DIF_API dif_status dif_value_extremes(const dif_field* values, double* lowest, double* highest);
 
 typedef struct dif_mollify_options {
   uint64_t struct_size;
-  double radius;    /* where the kernel ends, in cells; [1, 8]; 2 */
-  int32_t sides[6]; /* DIF_SIDE_..., as in dif_options; OPEN counts as MIRROR here */
-  int32_t threads;
-  int32_t reserved; /* 0 */
+  double radius; /* where the kernel ends, in cells; [1, 8]; 2 */
   dif_progress progress;
   void* progress_user;
+  int32_t boundary[6]; /* DIF_SIDE_..., as in dif_options; OPEN counts as MIRROR here */
+  int32_t threads;
+  int32_t reserved; /* 0 */
 } dif_mollify_options;
 
-/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
+/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.2. */
 DIF_API dif_status dif_mollify_options_init(dif_mollify_options* options, uint64_t struct_size);
 
 /* Convolution of a field with a compact kernel that keeps the sum, unless sides are EMPTY or FULL.
  * `values` has one element per cell, x fastest. Origin and spacing are not looked at.
  * Errors: INVALID_ARGUMENT, INVALID_GRID, INVALID_VALUE (the cell that is NaN or infinite is
- * named), STRUCT, TOO_LARGE, OUT_OF_MEMORY, CANCELLED. Since 0.1. */
+ * named), STRUCT, TOO_LARGE, OUT_OF_MEMORY, CANCELLED. Since 0.2. */
 DIF_API dif_status dif_mollify(const dif_field* field, const dif_mollify_options* options,
                                double values[]);
 
@@ -626,7 +623,7 @@ typedef struct dif_measure {
   int32_t reserved;
 } dif_measure;
 
-/* Prepares an output struct. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
+/* Prepares an output struct. Errors: INVALID_ARGUMENT, STRUCT. Since 0.2. */
 DIF_API dif_status dif_measure_init(dif_measure* measure, uint64_t struct_size);
 /* Errors: INVALID_ARGUMENT (a position that is not finite is named), STRUCT, OUT_OF_MEMORY. Since
  * 0.1. */
@@ -641,7 +638,7 @@ typedef struct dif_distance_options {
   void* progress_user;
 } dif_distance_options;
 
-/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
+/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.2. */
 DIF_API dif_status dif_distance_options_init(dif_distance_options* options, uint64_t struct_size);
 
 /* Distances d of some points. This struct has no size and never changes. */
@@ -667,13 +664,13 @@ typedef struct dif_distance {
   int32_t reserved;
 } dif_distance;
 
-/* Prepares an output struct. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
+/* Prepares an output struct. Errors: INVALID_ARGUMENT, STRUCT. Since 0.2. */
 DIF_API dif_status dif_distance_init(dif_distance* distance, uint64_t struct_size);
 
 /* Distances of a mesh from a shape, which may be given by its signed distance. `function` is called
  * from several threads at once unless `threads` is 1.
  * Errors: INVALID_ARGUMENT (also for an empty mesh), INVALID_VALUE (a distance that is NaN),
- * STRUCT, OUT_OF_MEMORY, CANCELLED, UNSUPPORTED. Since 0.1. */
+ * STRUCT, OUT_OF_MEMORY, CANCELLED, UNSUPPORTED. Since 0.2. */
 DIF_API dif_status dif_distance_to_shape(const dif_mesh* mesh, const dif_shape* shape,
                                          const dif_distance_options* options,
                                          dif_distance* distance);
@@ -682,7 +679,7 @@ DIF_API dif_status dif_distance_to_function(const dif_mesh* mesh, dif_function f
                                             dif_distance* distance);
 /* Distances of a mesh from a reference mesh, and back: `back` may be NULL, and then is not
  * measured. Their larger maximum bounds the Hausdorff distance from below, and with the larger
- * reach added from above. Errors: likewise, and TOO_LARGE. Since 0.1. */
+ * reach added from above. Errors: likewise, and TOO_LARGE. Since 0.2. */
 DIF_API dif_status dif_distance_to_mesh(const dif_mesh* mesh, const dif_mesh* reference,
                                         const dif_distance_options* options, dif_distance* distance,
                                         dif_distance* back);
@@ -695,7 +692,7 @@ typedef struct dif_curvature_options {
   void* progress_user;
 } dif_curvature_options;
 
-/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
+/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.2. */
 DIF_API dif_status dif_curvature_options_init(dif_curvature_options* options, uint64_t struct_size);
 
 /* Curvatures at the vertices of a mesh, by parabolic patches fitted to their neighbours: the mean
@@ -704,7 +701,7 @@ DIF_API dif_status dif_curvature_options_init(dif_curvature_options* options, ui
  * `smallest` may be NULL. In 1 / unit, the Gaussian squared; positive where bodies are convex: 1/R
  * for a ball.
  * Errors: INVALID_ARGUMENT (a position that is not finite is named), STRUCT, OUT_OF_MEMORY,
- * CANCELLED. Since 0.1. */
+ * CANCELLED. Since 0.2. */
 DIF_API dif_status dif_mesh_curvature(const dif_mesh* mesh, const dif_curvature_options* options,
                                       double mean[], double gaussian[], double largest[],
                                       double smallest[]);
@@ -741,14 +738,14 @@ typedef struct dif_smoothing_options {
   void* progress_user;
 } dif_smoothing_options;
 
-/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
+/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.2. */
 DIF_API dif_status dif_smoothing_options_init(dif_smoothing_options* options, uint64_t struct_size);
 
 /* A new mesh with the vertices moved. It has the triangles and edge_ids of the given one and, if
  * that has normals, those of the smooth surface, but no scalars or report, which no longer hold.
  * CONSTRAINED needs a closed mesh with edge_ids and the grid of its reconstruction; `grid` may be
  * NULL for the others, which do not look at it.
- * Errors: INVALID_ARGUMENT, INVALID_GRID, TOO_LARGE, STRUCT, OUT_OF_MEMORY, CANCELLED. Since 0.1.
+ * Errors: INVALID_ARGUMENT, INVALID_GRID, TOO_LARGE, STRUCT, OUT_OF_MEMORY, CANCELLED. Since 0.2.
  * */
 DIF_API dif_status dif_mesh_smooth(const dif_mesh* mesh, const dif_grid* grid,
                                    const dif_smoothing_options* options, dif_mesh** smooth);
@@ -769,9 +766,9 @@ enum {
 };
 
 enum {
-  DIF_COLOUR_MAP_DEFAULT = 0,  /* VIRIDIS */
-  DIF_COLOUR_MAP_VIRIDIS = 1,  /* from dark blue over green to yellow */
-  DIF_COLOUR_MAP_COOL_WARM = 2 /* diverging: blue, grey at 0, red */
+  DIF_COLOR_MAP_DEFAULT = 0,  /* VIRIDIS */
+  DIF_COLOR_MAP_VIRIDIS = 1,  /* from dark blue over green to yellow */
+  DIF_COLOR_MAP_COOL_WARM = 2 /* diverging: blue, grey at 0, red */
 };
 
 /* The axis of the mesh's coordinates that points up; in glTF that is y. */
@@ -785,20 +782,20 @@ enum {
  * must be left as it is. */
 typedef struct dif_mesh_write_options {
   uint64_t struct_size;
-  const char* format;    /* an extension, such as "ply"; NULL, the default: that of the path */
-  int32_t normals;       /* 1, the default: write them, where mesh and format have them */
-  int32_t edge_ids;      /* 1, the default: likewise */
-  int32_t scalars;       /* 1, the default: likewise; PLY, glTF and Draco */
-  int32_t draco;         /* 1: compress glTF, with KHR_draco_mesh_compression; default 0 */
-  int32_t draco_method;  /* DIF_DRACO_...; EDGEBREAKER */
-  int32_t draco_speed;   /* 0 small to 10 fast; 5 */
-  int32_t position_bits; /* Draco: 1 to 24; 0, the default: as many as keep coordinates within a
+  const char* format;     /* an extension, such as "ply"; NULL, the default: that of the path */
+  int32_t normals;        /* 1, the default: write them, where mesh and format have them */
+  int32_t edge_ids;       /* 1, the default: likewise */
+  int32_t scalars;        /* 1, the default: likewise; PLY, glTF and Draco */
+  int32_t draco;          /* 1: compress glTF, with KHR_draco_mesh_compression; default 0 */
+  int32_t draco_method;   /* DIF_DRACO_...; EDGEBREAKER */
+  int32_t draco_speed;    /* 0 small to 10 fast; 5 */
+  int32_t position_bits;  /* Draco: 1 to 24; 0, the default: as many as keep coordinates within a
                            * thousandth of cell_size */
-  int32_t normal_bits;   /* Draco: 2 to 24; 10, off by up to 0.25 degrees */
-  int32_t generic_bits;  /* Draco: of scalars, in steps of their range; 1 to 24; 12 */
-  int32_t colour_map;    /* glTF: DIF_COLOUR_MAP_...; VIRIDIS */
-  const char* colour_by; /* glTF: the name of scalars to colour by; NULL, the default: light grey */
-  double colour_range[2]; /* of the first and the last colour; 0, 0, the default: least and greatest
+  int32_t normal_bits;    /* Draco: 2 to 24; 10, off by up to 0.25 degrees */
+  int32_t generic_bits;   /* Draco: of scalars, in steps of their range; 1 to 24; 12 */
+  int32_t color_map;      /* glTF: DIF_COLOR_MAP_...; VIRIDIS */
+  const char* color_by;   /* glTF: the name of scalars to color by; NULL, the default: light grey */
+  double color_range[2];  /* of the first and the last color; 0, 0, the default: least and greatest
                            * value, for COOL_WARM as far from 0 on both sides */
   double cell_size;       /* Draco: >= 0; 0, the default: the mean length of the triangles' edges */
   double metres_per_unit; /* glTF, whose unit is the metre: > 0; 1 */
@@ -809,7 +806,7 @@ typedef struct dif_mesh_write_options {
   const char* name;         /* glTF: of mesh and node, in UTF-8; NULL, the default: "surface" */
 } dif_mesh_write_options;
 
-/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
+/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.2. */
 DIF_API dif_status dif_mesh_write_options_init(dif_mesh_write_options* options,
                                                uint64_t struct_size);
 /* What became of a mesh in a file. Counts are those of the file: STL has three vertices per
@@ -822,34 +819,34 @@ typedef struct dif_mesh_write_report {
   int64_t bytes; /* size of the file */
   int64_t vertices;
   int64_t triangles;
-  int64_t primitives;    /* of glTF; 1 in other formats */
-  int32_t position_bits; /* of Draco; 0 without */
-  int32_t reserved;
+  int64_t primitives;     /* of glTF; 1 in other formats */
   double position_error;  /* no coordinate is off by more; exact for STL, 0 for PLY, OBJ, OFF */
   double local_origin[3]; /* glTF, Draco: what positions are relative to in the file; else 0 */
   int64_t collapsed_triangles; /* STL: that lose their area in float32; else 0 */
   const char* warning;         /* what a user should know though the file is there; see above */
+  int32_t position_bits;       /* of Draco; 0 without */
+  int32_t reserved;
 } dif_mesh_write_report;
 
-/* Prepares an output struct. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
+/* Prepares an output struct. Errors: INVALID_ARGUMENT, STRUCT. Since 0.2. */
 DIF_API dif_status dif_mesh_write_report_init(dif_mesh_write_report* report, uint64_t struct_size);
 /* Writes .ply (float64), .obj, .off, .stl (float32), .glb, .gltf (glTF, float32 about the centre)
  * or .drc (Draco), told by the extension or the options. `report` may be NULL; one that cannot be
  * filled is refused before anything is written. Errors: INVALID_ARGUMENT, INVALID_VALUE (a position
  * or scalar that is not finite; for glTF and Draco a mesh without triangles), TOO_LARGE,
  * FILE_WRITE, STRUCT, OUT_OF_MEMORY, UNSUPPORTED (DIF_PART_GLTF or DIF_PART_DRACO is not there).
- * Since 0.1. */
+ * Since 0.2. */
 DIF_API dif_status dif_mesh_write(const dif_mesh* mesh, const char* path,
                                   const dif_mesh_write_options* options,
                                   dif_mesh_write_report* report);
 /* Reads .ply, .obj, .off, .stl, .glb, .gltf or .drc, told by the extension.
  * Errors: FILE_MISSING, FILE_FORMAT, TOO_LARGE, OUT_OF_MEMORY, UNSUPPORTED (as above; FILE_FORMAT
- * for compressed glTF). Since 0.1. */
+ * for compressed glTF). Since 0.2. */
 DIF_API dif_status dif_mesh_read(const char* path, dif_mesh** mesh);
 /* Borrowed: warning number `index`, from 0, of the reading or of dif_reconstruct(); NULL from their
  * count on. It tells what was left out of the file or taken otherwise than it says, or that values
  * look like a mask, in one English sentence of at most 1000 bytes of UTF-8. Other meshes have none.
- * Errors: INVALID_ARGUMENT. Since 0.1. */
+ * Errors: INVALID_ARGUMENT. Since 0.2. */
 DIF_API dif_status dif_mesh_warning(const dif_mesh* mesh, int64_t index, const char** text);
 
 typedef struct dif_mesh_read_options {
@@ -858,9 +855,9 @@ typedef struct dif_mesh_read_options {
   int32_t reserved;      /* 0 */
 } dif_mesh_read_options;
 
-/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
+/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.2. */
 DIF_API dif_status dif_mesh_read_options_init(dif_mesh_read_options* options, uint64_t struct_size);
-/* dif_mesh_read() with options. Errors: likewise, and INVALID_ARGUMENT, STRUCT. Since 0.1. */
+/* dif_mesh_read() with options. Errors: likewise, and INVALID_ARGUMENT, STRUCT. Since 0.2. */
 DIF_API dif_status dif_mesh_read_with(const char* path, const dif_mesh_read_options* options,
                                       dif_mesh** mesh);
 
@@ -881,7 +878,7 @@ typedef struct dif_raw_layout {
 DIF_API dif_status dif_raw_layout_init(dif_raw_layout* layout, uint64_t struct_size);
 /* Reads .npy, .nrrd or .nhdr, told by the extension, or with a layout a raw file; `layout` may be
  * NULL.
- * Errors: INVALID_ARGUMENT, FILE_MISSING, FILE_FORMAT, TOO_LARGE, STRUCT, OUT_OF_MEMORY. Since 0.1.
+ * Errors: INVALID_ARGUMENT, FILE_MISSING, FILE_FORMAT, TOO_LARGE, STRUCT, OUT_OF_MEMORY. Since 0.2.
  * */
 DIF_API dif_status dif_field_read(const char* path, const dif_raw_layout* layout,
                                   dif_field_file** file);
@@ -901,26 +898,26 @@ typedef struct dif_field_read_options {
   const int64_t* labels;
 } dif_field_read_options;
 
-/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
+/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.2. */
 DIF_API dif_status dif_field_read_options_init(dif_field_read_options* options,
                                                uint64_t struct_size);
 /* dif_field_read() with options; `layout` may be NULL. Where integers become shares of the largest
- * value, types but UINT8 and UINT16 become FLOAT32 or FLOAT64. Errors: likewise. Since 0.1. */
+ * value, types but UINT8 and UINT16 become FLOAT32 or FLOAT64. Errors: likewise. Since 0.2. */
 DIF_API dif_status dif_field_read_with(const char* path, const dif_raw_layout* layout,
                                        const dif_field_read_options* options,
                                        dif_field_file** file);
 /* Borrowed: warning number `index`, from 0, of the reading; NULL from their count on. It tells what
  * a user must know though it is no error, in one English sentence of at most 1000 bytes of UTF-8.
- * Errors: INVALID_ARGUMENT. Since 0.1. */
+ * Errors: INVALID_ARGUMENT. Since 0.2. */
 DIF_API dif_status dif_field_file_warning(const dif_field_file* file, int64_t index,
                                           const char** text);
 /* The type of the elements in the file, DIF_INT16 for instance. Errors: INVALID_ARGUMENT. Since
    0.1. */
 DIF_API dif_status dif_field_file_type(const dif_field_file* file, int32_t* type);
-/* Frees the field; NULL is fine. Since 0.1. */
+/* Frees the field; NULL is fine. Since 0.2. */
 DIF_API void dif_field_file_free(dif_field_file* file);
 /* Describes what was read: `field` borrows the memory of `file`. Origin 0 and spacing 1 where the
- * file tells none. `field` needs no more than its struct_size set. Since 0.1. */
+ * file tells none. `field` needs no more than its struct_size set. Since 0.2. */
 DIF_API dif_status dif_field_file_field(const dif_field_file* file, dif_field* field);
 
 typedef struct dif_field_write_options {
@@ -932,11 +929,11 @@ typedef struct dif_field_write_options {
 } dif_field_write_options;
 enum { DIF_FIELD_FORMAT_BY_EXTENSION = 0, DIF_FIELD_FORMAT_NPY = 1, DIF_FIELD_FORMAT_NRRD = 2 };
 
-/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
+/* Fills in the defaults. Errors: INVALID_ARGUMENT, STRUCT. Since 0.2. */
 DIF_API dif_status dif_field_write_options_init(dif_field_write_options* options,
                                                 uint64_t struct_size);
 /* NRRD holds origin and spacing, .npy does not. Errors: INVALID_ARGUMENT, INVALID_GRID,
- * INVALID_VALUE, TOO_LARGE, FILE_WRITE, STRUCT, OUT_OF_MEMORY. Since 0.1. */
+ * INVALID_VALUE, TOO_LARGE, FILE_WRITE, STRUCT, OUT_OF_MEMORY. Since 0.2. */
 DIF_API dif_status dif_field_write(const dif_field* field, const char* path,
                                    const dif_field_write_options* options);
 
@@ -957,17 +954,17 @@ typedef struct dif_block {
   int64_t ghost_high[3];
 } dif_block;
 
-/* Prepares a block of 0 cells. Errors: INVALID_ARGUMENT, STRUCT. Since 0.1. */
+/* Prepares a block of 0 cells. Errors: INVALID_ARGUMENT, STRUCT. Since 0.2. */
 DIF_API dif_status dif_block_init(dif_block* block, uint64_t struct_size);
 /* As dif_reconstruct(), of one block. `grid` is the whole grid; origin and spacing of `field` are
- * not looked at. The mesh has edge_ids. Since 0.1. */
+ * not looked at. The mesh has edge_ids. Since 0.2. */
 DIF_API dif_status dif_reconstruct_block(const dif_field* field, const dif_block* block,
                                          const dif_grid* grid, const dif_options* options,
                                          dif_mesh** mesh);
 /* Joins meshes of disjoint blocks by edge ids: those of blocks that cover the grid give the mesh of
  * the whole field, bit for bit. Errors: INVALID_ARGUMENT (also for blocks that are not disjoint,
  * such as one given twice: both meshes have triangles between the same cells), TOO_LARGE,
- * OUT_OF_MEMORY. Since 0.1. */
+ * OUT_OF_MEMORY. Since 0.2. */
 DIF_API dif_status dif_mesh_weld(const dif_mesh* const meshes[], int64_t count,
                                  const dif_grid* grid, dif_mesh** mesh);
 

@@ -16,7 +16,7 @@ struct CellPlane {
   NormalSource source = NormalSource::none;
 };
 
-/// Normals and planes of the listed cells, by options.normals, options.sides and
+/// Normals and planes of the listed cells, by options.normals, options.boundary and
 /// options.purity_tolerance. A cell with γ = 0 or 1 gets the plane touching its corner.
 /// \param cells indices of cells in the grid; \param planes as many results
 /// \throw Error as reconstruct(); invalid_argument where a cell lies outside the grid or the sizes

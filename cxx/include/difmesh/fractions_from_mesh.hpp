@@ -2,11 +2,13 @@
 /// \file fractions_from_mesh.hpp
 /// The way back: exact volume fractions of the inside of a closed triangle mesh.
 
+#include <array>
 #include <cstdint>
 #include <span>
 
 #include "difmesh/grid.hpp"
 #include "difmesh/mesh.hpp"
+#include "difmesh/names.hpp"
 #include "difmesh/options.hpp"
 
 namespace difmesh {
@@ -18,6 +20,9 @@ enum class Overlaps : std::uint8_t {
   refuse,  ///< fail, and name a cell
   count,   ///< γ is the mean of w over the cell: not clamped, may exceed 1 or be negative
 };
+/// Their words; see names.hpp.
+inline constexpr std::array<Named<Overlaps>, 3> kOverlaps{
+    {{"union", Overlaps::unite}, {"refuse", Overlaps::refuse}, {"count", Overlaps::count}}};
 
 struct FractionsFromMeshOptions {
   /// The triangles are clockwise seen from outside: treat the mesh as turned inside out.

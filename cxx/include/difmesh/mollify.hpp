@@ -13,7 +13,7 @@ struct MollifyOptions {
   double radius = 2.0;
   /// What lies beyond the sides, as in Options; but nothing being known beyond `open` sides, they
   /// count as mirrors here.
-  Sides sides{Side::open, Side::open, Side::open, Side::open, Side::open, Side::open};
+  Boundary boundary{Side::open, Side::open, Side::open, Side::open, Side::open, Side::open};
   int threads = 0;         ///< at most this many, 0: as the machine has; changes no bit
   Progress progress = {};  ///< may be empty; see options.hpp
 };

@@ -44,12 +44,12 @@ enum class Side : std::uint8_t {
 };
 
 /// One per side: xlo, xhi, ylo, yhi, zlo, zhi.
-using Sides = std::array<Side, 6>;
+using Boundary = std::array<Side, 6>;
 
 struct Options {
   Placement placement = Placement::plic;
   Normals normals = Normals::height_function;
-  Sides sides{Side::open, Side::open, Side::open, Side::open, Side::open, Side::open};
+  Boundary boundary{Side::open, Side::open, Side::open, Side::open, Side::open, Side::open};
   /// γ <= this counts as empty, γ >= 1 - this as full, wherever that has to be decided; [0, 0.1].
   double purity_tolerance = 1e-6;
   /// Values in [-bound, 1 + bound] are clamped to [0,1] and counted; beyond it the call fails. In

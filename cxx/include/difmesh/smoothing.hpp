@@ -13,10 +13,12 @@
 ///   vertices; cancelled
 /// Thread safety: concurrent calls are safe.
 
+#include <array>
 #include <cstdint>
 #include <span>
 
 #include "difmesh/mesh.hpp"
+#include "difmesh/names.hpp"
 #include "difmesh/options.hpp"
 
 namespace difmesh {
@@ -26,6 +28,9 @@ enum class BoundaryVertices : std::uint8_t {
   stay,   ///< where they are
   along,  ///< see only their neighbours along the boundary: loops stay in their planes
 };
+/// Their words; see names.hpp.
+inline constexpr std::array<Named<BoundaryVertices>, 2> kBoundaryVertices{
+    {{"stay", BoundaryVertices::stay}, {"along", BoundaryVertices::along}}};
 
 struct LaplacianOptions {
   int steps = 1;        ///< [0, 10^6]
@@ -70,9 +75,9 @@ struct CurvatureFlowOptions {
   /// How long the surface flows in each step, in the square of the positions' unit; > 0. Waves of
   /// length l are damped by 1 + 4 pi² time/l².
   double time = 1.0;
-  double tolerance = 1e-10;  ///< the linear systems' residual over the first one; [1e-14, 0.1]
-  int threads = 0;           ///< at most this many, 0: as the machine has; changes no bit
-  Progress progress = {};    ///< may be empty; see options.hpp
+  double residual = 1e-10;  ///< of the linear systems over the first one; [1e-14, 0.1]
+  int threads = 0;          ///< at most this many, 0: as the machine has; changes no bit
+  Progress progress = {};   ///< may be empty; see options.hpp
 };
 
 /// Flow along the normal at a speed of twice the mean curvature, by implicit steps: solves

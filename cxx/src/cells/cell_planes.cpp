@@ -169,10 +169,10 @@ Array<Index3> interfacial_cells(const FieldView& field, const Grid& grid, const 
   const BlockField block = whole_field(field, grid, options);
   detail::Workers workers(options.threads);
   detail::Phases phases(workers, options.progress);
-  Report report;
+  detail::FieldFacts facts;
   detail::LayerPlanes no_planes;
   static_cast<void>(
-      detail::classify(block, {options.overshoot_bound, no_planes}, 0.5, phases, report));
+      detail::classify(block, {options.overshoot_bound, no_planes}, 0.5, phases, facts));
   const std::int64_t rows = grid.dims[1] * grid.dims[2];
   const std::int64_t grain = std::max<std::int64_t>(1, kCellsPerRowPortion / grid.dims[0]);
   std::vector<std::vector<Index3>> portions(static_cast<std::size_t>((rows + grain - 1) / grain));
@@ -184,7 +184,7 @@ Array<Index3> interfacial_cells(const FieldView& field, const Grid& grid, const 
     });
   });
   Array<Index3> cells;
-  cells.reserve(static_cast<std::size_t>(report.interfacial_cells));
+  cells.reserve(static_cast<std::size_t>(facts.report.interfacial_cells));
   for (const std::vector<Index3>& portion : portions) {
     cells.insert(cells.end(), portion.begin(), portion.end());
   }

@@ -338,12 +338,13 @@ struct SlabParts {
 }  // namespace
 
 ClassifiedNodes classify(const BlockField& field, const FieldLimits& limits, double weight,
-                         Phases& phases, Report& report) {
+                         Phases& phases, FieldFacts& facts) {
+  Report& report = facts.report;
   Index3 first;
   Index3 last;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const bool at_low_side =
-        field.block.offset[axis] == 0 && field.sides[2 * axis] != Side::periodic;
+        field.block.offset[axis] == 0 && field.boundary[2 * axis] != Side::periodic;
     first[axis] = at_low_side ? 0 : 1;
     last[axis] = field.block.dims[axis] + 1;
   }
@@ -405,8 +406,9 @@ ClassifiedNodes classify(const BlockField& field, const FieldLimits& limits, dou
   report.clamped_cells += all.clamped;
   report.largest_overshoot = std::max(report.largest_overshoot, all.overshoot);
   for (const double sum : sums) {
-    report.fraction_volume += sum * field.grid.cell_volume();
+    facts.fractions += sum;
   }
+  report.fraction_volume = facts.fractions * field.grid.cell_volume();
   return result;
 }
 

@@ -31,10 +31,16 @@ struct FieldLimits {
   LayerPlanes& layer_planes;
 };
 
+/// What a pass over a field finds, or those over its parts.
+struct FieldFacts {
+  Report report;
+  double fractions = 0.0;  ///< sum of all; the report's volume is made of it
+};
+
 /// Node bits of the block, with the nodes beyond the sides of the domain taken from the cells they
-/// stand for. Adds the facts about the field to the report. \throw Error invalid_value naming the
+/// stand for. Adds to the facts about the field. \throw Error invalid_value naming the
 /// first bad cell in the order z, y, x; OutOfMemory by the limits
 [[nodiscard]] ClassifiedNodes classify(const BlockField& field, const FieldLimits& limits,
-                                       double weight, Phases& phases, Report& report);
+                                       double weight, Phases& phases, FieldFacts& facts);
 
 }  // namespace difmesh::detail

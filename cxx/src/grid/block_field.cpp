@@ -5,6 +5,7 @@
 
 #include "base/position_text.hpp"
 #include "difmesh/error.hpp"
+#include "difmesh/names.hpp"
 
 namespace difmesh::detail {
 namespace {
@@ -31,24 +32,26 @@ void check_options(const Options& options) {
   if (options.threads < 0) {
     fail("options: threads must not be negative, got " + std::to_string(options.threads));
   }
-  if (options.placement > Placement::plic || options.normals > Normals::lvira) {
+  if (name_of(kPlacements, options.placement).empty() ||
+      name_of(kNormals, options.normals).empty()) {
     fail("options: unknown placement or normals");
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Side low = options.sides[2 * axis];
-    const Side high = options.sides[2 * axis + 1];
-    if (low > Side::full || high > Side::full) {
+    const Side low = options.boundary[2 * axis];
+    const Side high = options.boundary[2 * axis + 1];
+    if (name_of(kSides, low).empty() || name_of(kSides, high).empty()) {
       fail("options: unknown side");
     }
     if ((low == Side::periodic) != (high == Side::periodic)) {
-      fail(std::string("options: sides in ") + kAxisNames[axis] +
+      fail(std::string("options: boundary in ") + kAxisNames[axis] +
            ": periodic needs both sides of the axis");
     }
   }
 }
 
 // Ghost layers must reach as far as the stencils do, or to the end of the domain.
-AxisCells check_axis(std::size_t axis, const Block& block, const Grid& grid, const Sides& sides) {
+AxisCells check_axis(std::size_t axis, const Block& block, const Grid& grid,
+                     const Boundary& boundary) {
   const std::int64_t count = grid.dims[axis];
   const std::int64_t offset = block.offset[axis];
   const std::int64_t dims = block.dims[axis];
@@ -59,7 +62,7 @@ AxisCells check_axis(std::size_t axis, const Block& block, const Grid& grid, con
     fail(where + ": cells " + std::to_string(offset) + " to " + std::to_string(offset) + " + " +
          std::to_string(dims) + " are not inside the grid's " + std::to_string(count));
   }
-  const bool periodic = sides[2 * axis] == Side::periodic;
+  const bool periodic = boundary[2 * axis] == Side::periodic;
   const bool whole = dims == count && low == 0 && high == 0;
   const std::int64_t below = periodic && !whole ? kGhostLayers : std::min(kGhostLayers, offset);
   const std::int64_t above =
@@ -72,7 +75,7 @@ AxisCells check_axis(std::size_t axis, const Block& block, const Grid& grid, con
   if (!periodic && (low > offset || high > count - offset - dims)) {
     fail(where + ": ghost layers reach beyond the grid");
   }
-  return {count, offset - low, offset + dims + high, {sides[2 * axis], sides[2 * axis + 1]}};
+  return {count, offset - low, offset + dims + high, {boundary[2 * axis], boundary[2 * axis + 1]}};
 }
 
 }  // namespace
@@ -107,7 +110,7 @@ void check_block(const Block& block, const Grid& grid, const Options& options) {
   validate(grid);
   check_options(options);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    (void)check_axis(axis, block, grid, options.sides);
+    (void)check_axis(axis, block, grid, options.boundary);
   }
 }
 
@@ -119,11 +122,11 @@ BlockField make_block_field(const FieldView& field, const Block& block, const Gr
   BlockField result;
   result.grid = grid;
   result.block = block;
-  result.sides = options.sides;
+  result.boundary = options.boundary;
   result.view = field;
   result.purity_tolerance = options.purity_tolerance;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    result.axes[axis] = check_axis(axis, block, grid, options.sides);
+    result.axes[axis] = check_axis(axis, block, grid, options.boundary);
     const std::int64_t in_memory = result.axes[axis].high - result.axes[axis].low;
     if (field.dims[axis] != in_memory) {
       fail(std::string("field: ") + std::to_string(field.dims[axis]) + " cells in " +

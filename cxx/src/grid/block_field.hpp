@@ -29,13 +29,13 @@ struct AxisCells {
   std::int64_t count = 0;  ///< cells of the whole grid
   std::int64_t low = 0;    ///< cells in memory: [low, high), in global indices
   std::int64_t high = 0;
-  std::array<Side, 2> sides{Side::open, Side::open};
+  std::array<Side, 2> boundary{Side::open, Side::open};
 
   /// The cell in memory that stands for any global index, or one of the constants above.
   [[nodiscard]] std::int64_t resolve(std::int64_t index) const {
     while (index < low || index >= high) {
       const bool below = index < 0;
-      switch (sides[below ? 0 : 1]) {
+      switch (boundary[below ? 0 : 1]) {
         case Side::open:
           return kMissing;
         case Side::empty:
@@ -69,13 +69,13 @@ template <class T>
 struct BlockField {
   Grid grid;
   Block block;
-  Sides sides{};
+  Boundary boundary{};
   FieldView view;  ///< as given: its cell 0 is the first in memory
   std::array<AxisCells, 3> axes;
   double purity_tolerance = 0.0;
 
   [[nodiscard]] Side side(int axis, int high) const {
-    return sides[static_cast<std::size_t>(2 * axis + high)];
+    return boundary[static_cast<std::size_t>(2 * axis + high)];
   }
   /// Element offset of a cell in memory from view.data.
   [[nodiscard]] std::int64_t element(const Index3& cell) const {

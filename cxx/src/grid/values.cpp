@@ -10,6 +10,7 @@
 
 #include "difmesh/error.hpp"
 #include "difmesh/float_environment.hpp"
+#include "difmesh/names.hpp"
 #include "grid/scale_doubt.hpp"
 
 namespace difmesh {
@@ -92,9 +93,7 @@ double largest_value(ValueType type) noexcept {
 }
 
 const char* name_of(ValueType type) noexcept {
-  constexpr std::array<const char*, 10> names{"float32", "float64", "uint8",  "uint16", "int8",
-                                              "int16",   "int32",   "uint32", "int64",  "uint64"};
-  return names[static_cast<std::size_t>(type)];
+  return name_of(kValueTypes, type).data();
 }
 
 void fractions_from_values(const ValueView& values, const ValueRange& range, double* fractions) {

@@ -208,7 +208,7 @@ void flow(Array<Vec3>& positions, std::span<const Triangle> triangles,
   const FlowMatrix matrix(positions, triangles, neighbours, options.time);
   Array<Vec3> right(positions.size());
   loops.run([&](std::size_t v) { right[v] = matrix.flow(v, positions); });
-  const Array<Vec3> moves = solve(matrix, right, options.tolerance, loops);
+  const Array<Vec3> moves = solve(matrix, right, options.residual, loops);
   loops.run([&](std::size_t v) { positions[v] = plus(positions[v], moves[v]); });
 }
 
@@ -218,9 +218,9 @@ void check(const std::string& caller, const CurvatureFlowOptions& options) {
     throw Error(ErrorCode::invalid_argument,
                 caller + ": time must be above 0, got " + rounded_text(options.time));
   }
-  if (!(options.tolerance >= 1e-14 && options.tolerance <= 0.1)) {
-    throw Error(ErrorCode::invalid_argument, caller + ": tolerance must be 1e-14 to 0.1, got " +
-                                                 rounded_text(options.tolerance));
+  if (!(options.residual >= 1e-14 && options.residual <= 0.1)) {
+    throw Error(ErrorCode::invalid_argument,
+                caller + ": residual must be 1e-14 to 0.1, got " + rounded_text(options.residual));
   }
 }
 

@@ -215,9 +215,9 @@ BlockField checked_field(const FieldView& field, const MollifyOptions& options) 
                 "mollify: radius must be 1 to 8 cells, got " + rounded_text(options.radius));
   }
   Options checked;
-  checked.sides = options.sides;
+  checked.boundary = options.boundary;
   checked.threads = options.threads;
-  for (Side& side : checked.sides) {
+  for (Side& side : checked.boundary) {
     side = side == Side::open ? Side::mirror : side;
   }
   const Grid grid{.dims = field.dims};

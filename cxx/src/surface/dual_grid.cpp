@@ -17,7 +17,7 @@ double node_coordinate(const BlockField& field, std::size_t axis, std::int64_t i
   const double spacing = field.grid.spacing[axis];
   const std::int64_t count = field.grid.dims[axis];
   if (index < 0 || index >= count) {
-    const Side side = field.sides[2 * axis + (index < 0 ? 0 : 1)];
+    const Side side = field.boundary[2 * axis + (index < 0 ? 0 : 1)];
     if (side == Side::open || side == Side::mirror) {
       return index < 0 ? origin : origin + static_cast<double>(count) * spacing;
     }
@@ -110,7 +110,8 @@ NodeOrigin DualGrid::origin(const Index3& node) const {
       result.cell[axis] = index < 0 ? 1 : field_->block.dims[axis];
     } else if (!is_cell(resolved)) {
       result.constant = true;
-    } else if (field_->sides[2 * axis + (index < 0 ? 0 : 1)] == Side::mirror && resolved != index) {
+    } else if (field_->boundary[2 * axis + (index < 0 ? 0 : 1)] == Side::mirror &&
+               resolved != index) {
       result.cell[axis] = resolved - field_->block.offset[axis] + 1;
     }
   }

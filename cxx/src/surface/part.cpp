@@ -7,7 +7,6 @@
 
 #include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
-#include "cells/classify.hpp"
 #include "cells/memory_plan.hpp"
 #include "difmesh/error.hpp"
 #include "difmesh/out_of_memory.hpp"
@@ -24,7 +23,7 @@ namespace {
 // \param now what is about to be made
 void run_phases(const BlockField& field, const Options& options, const char*& now, PartSums& sums,
                 Mesh& mesh) {
-  Report& report = sums.report;
+  Report& report = sums.facts.report;
   Stopwatch whole;
   Stopwatch watch;
   Workers workers(options.threads);
@@ -33,8 +32,8 @@ void run_phases(const BlockField& field, const Options& options, const char*& no
   const bool with_planes = placement_part(options.placement).by_planes;
   LayerPlanes layer_planes(field, with_planes);
   now = kInsideBits.makes;
-  ClassifiedNodes classified =
-      classify(field, {options.overshoot_bound, layer_planes}, kInsideBits.weight, phases, report);
+  ClassifiedNodes classified = classify(field, {options.overshoot_bound, layer_planes},
+                                        kInsideBits.weight, phases, sums.facts);
   DualGrid grid(field, std::move(classified.nodes));
   report.seconds.classify += watch.lap();
 
@@ -76,8 +75,8 @@ PartSums::PartSums(const Grid& grid)
     : volume(grid.origin[2] + grid.spacing[2] * (0.5 * static_cast<double>(grid.dims[2]))) {}
 
 Report PartSums::finish() {
-  report.enclosed_volume = report.closed ? volume.value() : 0.0;
-  return std::move(report);
+  facts.report.enclosed_volume = facts.report.closed ? volume.value() : 0.0;
+  return std::move(facts.report);
 }
 
 Mesh reconstruct_part(const BlockField& field, const Options& options, PartSums& sums) {

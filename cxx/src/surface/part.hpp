@@ -1,6 +1,7 @@
 #pragma once
 // The surface of a part of a field, in phases: inside bits, planes, counts, vertices, triangles.
 
+#include "cells/classify.hpp"
 #include "difmesh/mesh.hpp"
 #include "difmesh/options.hpp"
 #include "difmesh/report.hpp"
@@ -13,7 +14,7 @@ namespace difmesh::detail {
 struct PartSums {
   explicit PartSums(const Grid& grid);
 
-  Report report;
+  FieldFacts facts;
   VolumeSum volume;
 
   /// The report with the volume in it.

@@ -22,9 +22,9 @@ class Flagger {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::int64_t end = field.block.offset[axis] + field.block.dims[axis];
       open_[axis][0] =
-          open_layers && field.sides[2 * axis] == Side::open && field.block.offset[axis] == 0;
+          open_layers && field.boundary[2 * axis] == Side::open && field.block.offset[axis] == 0;
       open_[axis][1] =
-          open_layers && field.sides[2 * axis + 1] == Side::open && end == field.grid.dims[axis];
+          open_layers && field.boundary[2 * axis + 1] == Side::open && end == field.grid.dims[axis];
     }
   }
 

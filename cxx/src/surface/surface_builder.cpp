@@ -105,7 +105,7 @@ class SurfaceBuilder::Work {
       fail("the slab at layer " + std::to_string(given_) + " has " + std::to_string(slab.dims[2]) +
            " layers; 1 to " + std::to_string(missing()) + " are possible");
     }
-    if (is_whole_ && options_.sides[4] == Side::periodic && slab.dims[2] < size_[2]) {
+    if (is_whole_ && options_.boundary[4] == Side::periodic && slab.dims[2] < size_[2]) {
       fail("periodic in z: give the field in one slab, or a part with ghost layers");
     }
     type_ = slab.type;

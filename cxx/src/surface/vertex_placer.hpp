@@ -173,9 +173,9 @@ class VertexPlacer {
     const BlockField& field = grid_.field();
     const std::int64_t index = edge.lower[edge.axis] - 1 + field.block.offset[edge.axis];
     const auto ends_on_face = [](Side side) { return side == Side::open || side == Side::mirror; };
-    return (index < 0 && ends_on_face(field.sides[2 * edge.axis])) ||
+    return (index < 0 && ends_on_face(field.boundary[2 * edge.axis])) ||
            (index == field.grid.dims[edge.axis] - 1 &&
-            ends_on_face(field.sides[2 * edge.axis + 1]));
+            ends_on_face(field.boundary[2 * edge.axis + 1]));
   }
 
   [[nodiscard]] double place_by_fractions(const DualEdge& edge) const {

@@ -134,15 +134,15 @@ contains
     character(1000) :: message
     calls = 0
     grid = dif_make_grid([16, 17, 18])
-    call dif_sample_function(grid, distance, fractions, status, report=report)
+    call dif_fractions_of_function(grid, distance, fractions, status, report=report)
     call expect(status == dif_ok, 'fractions of a function')
     call expect_near(sum(fractions), 4*acos(-1d0)/3*5.5d0**3, 1d-6, 'volume of a ball')
     call expect(report%function_calls == calls, 'calls are counted')
     with_ghosts = -7
-    call dif_sample_function(grid, distance, with_ghosts(1:16, 1:17, 1:18), status)
+    call dif_fractions_of_function(grid, distance, with_ghosts(1:16, 1:17, 1:18), status)
     call expect(maxval(abs(with_ghosts(1:16, 1:17, 1:18) - fractions)) <= 0, 'inside ghost layers')
     call expect(all(with_ghosts(0, :, :) < -6), 'ghost layers are left alone')
-    call dif_sample_function(grid, distance, with_ghosts, status, message=message)
+    call dif_fractions_of_function(grid, distance, with_ghosts, status, message=message)
     call expect(status == dif_error_invalid_argument, 'another shape than the grid')
     call expect(index(message, 'shape of the grid') > 0, 'what is wrong: '//trim(message))
 
@@ -152,11 +152,11 @@ contains
     call shape%create(options, status)
     call shape%volume(volume, status)
     call expect_near(volume, 4*acos(-1d0)/3*5.5d0**3, 1d-10, 'volume of a sphere')
-    call dif_sample_shape(grid, shape, with_ghosts(1:16, 1:17, 1:18), status)
+    call dif_fractions_of_shape(grid, shape, with_ghosts(1:16, 1:17, 1:18), status)
     call expect(maxval(abs(with_ghosts(1:16, 1:17, 1:18) - fractions)) < 1d-9, 'a sphere')
 
     call make_box(box, [2.25d0, 3.5d0, 4.75d0], [9.5d0, 10.25d0, 11.125d0])
-    call dif_sample_mesh(grid, box, fractions, status)
+    call dif_fractions_of_mesh(grid, box, fractions, status)
     call expect(status == dif_ok, 'fractions of a mesh')
     do i = 1, 18
       expected(:, i) = min(max(min([9.5d0, 10.25d0, 11.125d0], real(i, 8)) &
@@ -191,17 +191,17 @@ contains
     call both%set_arrays(reshape([points, others], [3, 16]), &
       reshape([faces, faces + 8], [3, 24]), status)
     call expect(status == dif_ok, 'two boxes')
-    call dif_sample_mesh(grid, both, fractions, status, report=report)
+    call dif_fractions_of_mesh(grid, both, fractions, status, report=report)
     call expect(status == dif_ok, 'two boxes that overlap')
     call expect_near(sum(fractions), 12d0, 1d-12, 'their union')
     call expect_near(report%overlap_volume, 4d0, 1d-12, 'what they have in common')
     call expect_near(report%overlap_high(1), 5d0, 1d-12, 'where it ends, by cells')
     call dif_init(options)
     options%overlaps = dif_overlaps_count
-    call dif_sample_mesh(grid, both, fractions, status, options)
+    call dif_fractions_of_mesh(grid, both, fractions, status, options)
     call expect_near(sum(fractions), 16d0, 1d-12, 'counted twice')
     options%overlaps = dif_overlaps_refuse
-    call dif_sample_mesh(grid, both, fractions, status, options)
+    call dif_fractions_of_mesh(grid, both, fractions, status, options)
     call expect(status == dif_error_invalid_argument, 'overlaps are refused')
   end subroutine
 
@@ -256,7 +256,7 @@ contains
     type(dif_plane_targets) :: targets
     integer :: status, i, j, k, inside
     character(1000) :: message
-    call dif_sample_function(dif_make_grid([n, n, n]), plane, c(1:n, 1:n, 1:n), status)
+    call dif_fractions_of_function(dif_make_grid([n, n, n]), plane, c(1:n, 1:n, 1:n), status)
     m = -7
     offset = -7
     source = -7

@@ -87,7 +87,7 @@ contains
     shape%radius = 8
     call ball%create(shape, status)
     grid = dif_make_grid([24, 24, 24])
-    call dif_sample_shape(grid, ball, c, status)
+    call dif_fractions_of_shape(grid, ball, c, status)
     call expect(status == dif_ok, 'a ball to smooth')
     call dif_init(options)
     options%edge_ids = 1
@@ -338,8 +338,8 @@ contains
     call expect(status == dif_error_invalid_argument, 'a blank: '//trim(message))
 
     if (dif_has(dif_part_gltf) == 0) return
-    call mesh%write('scalars_test.glb', status, colour_by='height ', name='ball', message=message)
-    call expect(status == dif_ok, 'written with colours: '//trim(message))
+    call mesh%write('scalars_test.glb', status, color_by='height ', name='ball', message=message)
+    call expect(status == dif_ok, 'written with colors: '//trim(message))
     call copy%read('scalars_test.glb', status)
     call copy%get_scalars('height', values, status)
     call expect(maxval(abs(values - points(3, :))) < 2d-6, 'read again')

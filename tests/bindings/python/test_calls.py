@@ -26,11 +26,11 @@ class Progress(unittest.TestCase):
             lambda progress: difmesh.reconstruct(smooth_ball(), progress=progress),
             lambda progress: difmesh.normals(smooth_ball(), progress=progress),
             lambda progress: difmesh.cell_planes(smooth_ball(), [[3, 4, 5]], progress=progress),
-            lambda progress: difmesh.sample_shape(difmesh.Shape(), 8, progress=progress),
-            lambda progress: difmesh.sample_function(
+            lambda progress: difmesh.fractions_from_shape(difmesh.Shape(), 8, progress=progress),
+            lambda progress: difmesh.fractions_from_function(
                 lambda points: points[:, 0] - 2.2, 8, progress=progress
             ),
-            lambda progress: difmesh.sample_mesh(
+            lambda progress: difmesh.fractions_from_mesh(
                 difmesh.reconstruct(smooth_ball()), 24, progress=progress
             ),
         ):
@@ -142,9 +142,9 @@ class Exceptions(unittest.TestCase):
 
         for threads in (1, 3):
             with self.assertRaisesRegex(LookupError, "no such point"):
-                difmesh.sample_function(bad, 8, threads=threads)
+                difmesh.fractions_from_function(bad, 8, threads=threads)
         with self.assertRaisesRegex(LookupError, "no such point"):
-            difmesh.sample_function(plane, 8, gradient=bad)
+            difmesh.fractions_from_function(plane, 8, gradient=bad)
 
     def test_results_of_functions(self):
         for result, words in (
@@ -155,14 +155,16 @@ class Exceptions(unittest.TestCase):
             (lambda points: None, "shape"),
         ):
             with self.assertRaisesRegex(ValueError, words):
-                difmesh.sample_function(result, 8)
+                difmesh.fractions_from_function(result, 8)
         with self.assertRaisesRegex(ValueError, "gradient returned.*shape"):
-            difmesh.sample_function(
+            difmesh.fractions_from_function(
                 lambda points: points[:, 0] - 2.2, 8, gradient=lambda points: points[:, 0]
             )
         with self.assertRaises(difmesh.InvalidValueError):
-            difmesh.sample_function(lambda points: points[:, 0] * np.nan, 8)
-        values = difmesh.sample_function(lambda p: (p[:, 0] - 4).astype(np.float32).tolist(), 8)
+            difmesh.fractions_from_function(lambda points: points[:, 0] * np.nan, 8)
+        values = difmesh.fractions_from_function(
+            lambda p: (p[:, 0] - 4).astype(np.float32).tolist(), 8
+        )
         self.assertEqual(values.fractions.sum(), 256)
 
 
@@ -217,7 +219,7 @@ class Signals(unittest.TestCase):
                 pass
             return points[:, 0]
 
-        self.interrupted(lambda: difmesh.sample_function(slow, 8))
+        self.interrupted(lambda: difmesh.fractions_from_function(slow, 8))
 
     def test_between_many_short_functions(self):
         """The signal may come at any time, so many are tried."""
@@ -239,7 +241,7 @@ class Signals(unittest.TestCase):
             try:
                 with self.assertRaises(KeyboardInterrupt):
                     thread.start()
-                    difmesh.sample_function(quick, 60, 0.1, threads=1)
+                    difmesh.fractions_from_function(quick, 60, 0.1, threads=1)
                     time.sleep(5)
             finally:
                 done.set()

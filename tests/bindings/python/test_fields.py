@@ -23,7 +23,7 @@ class Samples(unittest.TestCase):
             return points @ normal - d
 
         spacing, origin = (0.5, 0.25, 0.4), (-1, 0, 0.2)
-        field = difmesh.sample_function(
+        field = difmesh.fractions_from_function(
             function, (7, 8, 5), spacing, origin, gradient=lambda points: 0 * points + normal
         )
         self.assertEqual(field.fractions.shape, (5, 8, 7))
@@ -39,8 +39,8 @@ class Samples(unittest.TestCase):
         def function(points):
             return np.linalg.norm(points - 4.1, axis=1) - 2.7
 
-        one = difmesh.sample_function(function, 8)
-        many = difmesh.sample_function(function, 8, threads=4)
+        one = difmesh.fractions_from_function(function, 8)
+        many = difmesh.fractions_from_function(function, 8, threads=4)
         self.assertEqual(one.fractions.tobytes(), many.fractions.tobytes())
 
     def test_points_may_be_kept(self):
@@ -50,7 +50,7 @@ class Samples(unittest.TestCase):
             kept.append((points, points.copy()))
             return points[:, 0] - 1.5
 
-        difmesh.sample_function(function, 4)
+        difmesh.fractions_from_function(function, 4)
         for points, copy in kept:
             np.testing.assert_array_equal(points, copy)
 
@@ -62,7 +62,7 @@ class Samples(unittest.TestCase):
         ):
             shape = difmesh.Shape(kind, centre=5, rotation_degrees=(20, 30, 40), **parameters)
             self.assertAlmostEqual(shape.volume, volume, places=10)
-            field = difmesh.sample_shape(shape, 40, 0.25)
+            field = difmesh.fractions_from_shape(shape, 40, 0.25)
             self.assertAlmostEqual(field.report.fraction_volume, volume, places=6)
             self.assertAlmostEqual(field.fractions.sum() / 64, volume, places=6)
         np.testing.assert_allclose(
@@ -79,7 +79,7 @@ class Samples(unittest.TestCase):
                  [2, 6, 3], [3, 6, 7], [0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5]]  # fmt: skip
         low, high = np.array([0.7, 1.2, 0.9]), np.array([3.1, 2.8, 4.25])
         box = difmesh.Mesh(low + corners * (high - low), faces)
-        field = difmesh.sample_mesh(box, (4, 5, 6))
+        field = difmesh.fractions_from_mesh(box, (4, 5, 6))
         shares = [
             np.clip(np.minimum(high[a], np.arange(n) + 1) - np.maximum(low[a], np.arange(n)), 0, 1)
             for a, n in enumerate((4, 5, 6))
@@ -89,11 +89,11 @@ class Samples(unittest.TestCase):
         self.assertAlmostEqual(field.report.mesh_volume, np.prod(high - low), places=12)
         inside_out = difmesh.Mesh(box.points, box.faces[:, ::-1])
         with self.assertRaises(difmesh.InvalidArgumentError):
-            difmesh.sample_mesh(inside_out, (4, 5, 6))
-        again = difmesh.sample_mesh(inside_out, (4, 5, 6), flip=True)
+            difmesh.fractions_from_mesh(inside_out, (4, 5, 6))
+        again = difmesh.fractions_from_mesh(inside_out, (4, 5, 6), flip=True)
         np.testing.assert_allclose(again.fractions, expected, rtol=0, atol=1e-14)
         with self.assertRaisesRegex(difmesh.InvalidArgumentError, "edge"):
-            difmesh.sample_mesh(difmesh.Mesh(box.points, box.faces[:-1]), (4, 5, 6))
+            difmesh.fractions_from_mesh(difmesh.Mesh(box.points, box.faces[:-1]), (4, 5, 6))
 
     def test_overlapping_parts(self):
         """Two plates, [0,1]² x [0,0.02] and [0,1]² x [0.015,0.035], within one layer of cells."""
@@ -105,7 +105,7 @@ class Samples(unittest.TestCase):
             np.concatenate([plate, plate + (0, 0, 0.015)]),
             np.concatenate([faces, np.array(faces) + 8]),
         )
-        field = difmesh.sample_mesh(mesh, 6, 0.25, -0.25)
+        field = difmesh.fractions_from_mesh(mesh, 6, 0.25, -0.25)
         report = field.report
         self.assertAlmostEqual(report.fraction_volume, 0.035, places=14)
         self.assertAlmostEqual(report.overlap_volume, 0.005, places=14)
@@ -117,29 +117,29 @@ class Samples(unittest.TestCase):
         self.assertEqual((report.inverted_volume, report.inverted_cells), (0, 0))
         self.assertEqual((report.undecided_volume, report.undecided_cells), (0, 0))
         self.assertEqual((report.largest_undecided, report.undecided_cell), (0, (0, 0, 0)))
-        united = difmesh.sample_mesh(mesh, 6, 0.25, -0.25, overlaps="union")
+        united = difmesh.fractions_from_mesh(mesh, 6, 0.25, -0.25, overlaps="union")
         np.testing.assert_array_equal(united.fractions, field.fractions)
-        counted = difmesh.sample_mesh(mesh, 6, 0.25, -0.25, overlaps="count")
+        counted = difmesh.fractions_from_mesh(mesh, 6, 0.25, -0.25, overlaps="count")
         self.assertAlmostEqual(counted.report.fraction_volume, 0.04, places=14)
         with self.assertRaisesRegex(difmesh.InvalidArgumentError, r"overlap: cell \(1, 1, 1\)"):
-            difmesh.sample_mesh(mesh, 6, 0.25, -0.25, overlaps="refuse")
+            difmesh.fractions_from_mesh(mesh, 6, 0.25, -0.25, overlaps="refuse")
         with self.assertRaisesRegex(ValueError, "overlaps is 'both'"):
-            difmesh.sample_mesh(mesh, 6, 0.25, -0.25, overlaps="both")
+            difmesh.fractions_from_mesh(mesh, 6, 0.25, -0.25, overlaps="both")
 
     def test_bad_arguments(self):
         shape = difmesh.Shape()
         for exception, call in (
-            (ValueError, lambda: difmesh.sample_shape(shape, (4, 4))),
-            (ValueError, lambda: difmesh.sample_shape(shape, 4.0)),
-            (difmesh.InvalidGridError, lambda: difmesh.sample_shape(shape, 0)),
-            (difmesh.InvalidGridError, lambda: difmesh.sample_shape(shape, -3)),
-            (ValueError, lambda: difmesh.sample_shape(shape, 2**62)),
-            (difmesh.Error, lambda: difmesh.sample_shape(shape, 2**40)),
-            (difmesh.InvalidGridError, lambda: difmesh.sample_shape(shape, 4, math.inf)),
-            (ValueError, lambda: difmesh.sample_shape(shape, 4, tolerance=1)),
-            (TypeError, lambda: difmesh.sample_shape("sphere", 4)),
-            (TypeError, lambda: difmesh.sample_mesh(shape, 4)),
-            (TypeError, lambda: difmesh.sample_function(3, 4)),
+            (ValueError, lambda: difmesh.fractions_from_shape(shape, (4, 4))),
+            (ValueError, lambda: difmesh.fractions_from_shape(shape, 4.0)),
+            (difmesh.InvalidGridError, lambda: difmesh.fractions_from_shape(shape, 0)),
+            (difmesh.InvalidGridError, lambda: difmesh.fractions_from_shape(shape, -3)),
+            (ValueError, lambda: difmesh.fractions_from_shape(shape, 2**62)),
+            (difmesh.Error, lambda: difmesh.fractions_from_shape(shape, 2**40)),
+            (difmesh.InvalidGridError, lambda: difmesh.fractions_from_shape(shape, 4, math.inf)),
+            (ValueError, lambda: difmesh.fractions_from_shape(shape, 4, tolerance=1)),
+            (TypeError, lambda: difmesh.fractions_from_shape("sphere", 4)),
+            (TypeError, lambda: difmesh.fractions_from_mesh(shape, 4)),
+            (TypeError, lambda: difmesh.fractions_from_function(3, 4)),
             (ValueError, lambda: difmesh.Shape("soap")),
             (ValueError, lambda: difmesh.Shape("torus", radius=1, tube_radius=2)),
             (TypeError, lambda: difmesh.Shape("sphere", diameter=1)),
@@ -180,7 +180,7 @@ class Planes(unittest.TestCase):
     def test_planes_of_cells(self):
         """A plane's cells have its normal and offset."""
         normal = np.array([0.36, -0.48, 0.8])
-        field = difmesh.sample_function(lambda x: x @ normal - 3.3, (8, 9, 10), 1.0)
+        field = difmesh.fractions_from_function(lambda x: x @ normal - 3.3, (8, 9, 10), 1.0)
         planes = difmesh.normals(field)
         self.assertEqual(planes.normals.shape, (10, 9, 8, 3))
         self.assertEqual((planes.offsets.dtype, planes.sources.dtype), (np.float64, np.int32))
@@ -206,7 +206,7 @@ class Planes(unittest.TestCase):
         np.testing.assert_array_equal(turned.offsets, planes.offsets.T)
         np.testing.assert_array_equal(turned.sources, planes.sources.T)
         self.assertEqual(planes.normals[..., 0].strides, field.fractions.strides)
-        youngs = difmesh.normals(field, normals="youngs", sides="mirror", threads=1)
+        youngs = difmesh.normals(field, normals="youngs", boundary="mirror", threads=1)
         self.assertEqual(set(np.unique(youngs.sources)), {0, 1})
 
     def test_bad_cells(self):

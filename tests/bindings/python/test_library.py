@@ -86,7 +86,7 @@ class Interface(unittest.TestCase):
             ("_options", "_SIDES", "DIF_SIDE_"),
             ("_fractions", "_SHAPES", "DIF_SHAPE_"),
             ("_write_options", "_DRACO_METHODS", "DIF_DRACO_"),
-            ("_write_options", "_COLOUR_MAPS", "DIF_COLOUR_MAP_"),
+            ("_write_options", "_COLOR_MAPS", "DIF_COLOR_MAP_"),
             ("_write_options", "_UP_AXES", "DIF_UP_"),
             ("_files", "_FORMATS", "DIF_FIELD_FORMAT_"),
         ):
@@ -241,9 +241,10 @@ class Options(unittest.TestCase):
             (difmesh.mollify, _structs.DifMollifyOptions, ()),
             (difmesh.distance, _structs.DifDistanceOptions, ()),
             (difmesh.distance_both_ways, _structs.DifDistanceOptions, ()),
-            (difmesh.sample_function, _structs.DifFunctionOptions, ()),
-            (difmesh.sample_shape, _structs.DifFunctionOptions, ("gradient",)),  # has its own
-            (difmesh.sample_mesh, _structs.DifTriangleOptions, ()),
+            (difmesh.fractions_from_function, _structs.DifFunctionOptions, ()),
+            # A shape has a gradient of its own.
+            (difmesh.fractions_from_shape, _structs.DifFunctionOptions, ("gradient",)),
+            (difmesh.fractions_from_mesh, _structs.DifTriangleOptions, ()),
             (difmesh.read_mesh, _structs.DifMeshReadOptions, ()),
             (difmesh.read_field, _structs.DifFieldReadOptions, ()),
             (difmesh.write_field, _structs.DifFieldWriteOptions, ()),

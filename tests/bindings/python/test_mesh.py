@@ -25,7 +25,7 @@ CUBE = (
 class Reconstruct(unittest.TestCase):
     def test_a_ball(self):
         shape = difmesh.Shape("sphere", radius=11.2, centre=(16.1, 15.8, 16.3))
-        field = difmesh.sample_shape(shape, 32)
+        field = difmesh.fractions_from_shape(shape, 32)
         mesh = difmesh.reconstruct(field, vertex_normals=True, edge_ids=True)
         radii = np.linalg.norm(mesh.points - (16.1, 15.8, 16.3), axis=1)
         self.assertLess(np.abs(radii - 11.2).max(), 0.016)  # table of the README, 8 to 16 cells
@@ -67,10 +67,10 @@ class Reconstruct(unittest.TestCase):
         half = np.ones((6, 6, 6))
         half[3:] = 0
         self.assertFalse(difmesh.reconstruct(half).report.closed)
-        self.assertTrue(difmesh.reconstruct(half, sides="empty").report.closed)
+        self.assertTrue(difmesh.reconstruct(half, boundary="empty").report.closed)
         # Full below, so the low sides close it except in z.
         sides = ["empty", "empty", "empty", "empty", "mirror", "empty"]
-        mesh = difmesh.reconstruct(half, sides=sides)
+        mesh = difmesh.reconstruct(half, boundary=sides)
         self.assertGreater(mesh.measure().boundary_edges, 0)
         self.assertEqual(mesh.points[:, 2].min(), 0)
         over = np.zeros((4, 4, 4))
@@ -86,8 +86,8 @@ class Reconstruct(unittest.TestCase):
         for options in (
             {"placement": "best"},
             {"normals": 3},
-            {"sides": "wall"},
-            {"sides": ["open"] * 5},
+            {"boundary": "wall"},
+            {"boundary": ["open"] * 5},
             {"purity_tolerance": -1},
             {"purity_tolerance": math.nan},
             {"clearance": 1},
@@ -368,7 +368,7 @@ class Files(unittest.TestCase):
             os.path.getsize(self.path("ball.drc")), os.path.getsize(self.path("fine.drc"))
         )
 
-    def test_colours(self):
+    def test_colors(self):
         self.need("gltf")
         mesh = difmesh.reconstruct(smooth_ball())
         report = self.saved(

@@ -14,7 +14,7 @@ CENTRE, RADIUS, CELLS = (12.1, 11.8, 12.3), 8.0, 24
 
 def ball(**options):
     shape = difmesh.Shape("sphere", radius=RADIUS, centre=CENTRE)
-    return difmesh.reconstruct(difmesh.sample_shape(shape, CELLS), **options)
+    return difmesh.reconstruct(difmesh.fractions_from_shape(shape, CELLS), **options)
 
 
 def radii(mesh):
@@ -98,8 +98,8 @@ class Smooth(unittest.TestCase):
     def test_constrained(self):
         mesh = ball(placement="linear", edge_ids=True)
         smooth = difmesh.smooth(mesh, "constrained", dims=CELLS, tolerance=0.02)
-        before = difmesh.sample_mesh(mesh, CELLS).fractions
-        after = difmesh.sample_mesh(smooth, CELLS).fractions
+        before = difmesh.fractions_from_mesh(mesh, CELLS).fractions
+        after = difmesh.fractions_from_mesh(smooth, CELLS).fractions
         self.assertGreater(np.abs(after - before).max(), 0)
         self.assertLessEqual(np.abs(after - before).max(), 0.02)
         errors = [np.abs(RADIUS * difmesh.curvature(m).mean - 1).mean() for m in (mesh, smooth)]
@@ -160,9 +160,10 @@ class Mollify(unittest.TestCase):
 
     def test_sides(self):
         usual = difmesh.mollify(self.fractions).fractions
-        self.assertTrue((difmesh.mollify(self.fractions, sides="mirror").fractions == usual).all())
+        mirrored = difmesh.mollify(self.fractions, boundary="mirror").fractions
+        self.assertTrue((mirrored == usual).all())
         for sides in ("periodic", "empty", ("full", *("open",) * 5)):
-            other = difmesh.mollify(self.fractions, sides=sides).fractions
+            other = difmesh.mollify(self.fractions, boundary=sides).fractions
             self.assertFalse((other == usual).all(), sides)
             self.assertTrue((other[2:-2, 2:-2, 2:-2] == usual[2:-2, 2:-2, 2:-2]).all())
 

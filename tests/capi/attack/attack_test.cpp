@@ -54,7 +54,7 @@ Specimen plain(const Index3& dims, std::vector<double> values) {
 Specimen closed_specimen() {
   Specimen specimen = plain({3, 3, 2}, {0.0, 0.6, 0.0, 0.7, 1.0, 0.2, 0.0, 0.3, 0.9,  //
                                         0.8, 0.1, 0.0, 0.1, 0.4, 0.7, 0.0, 0.9, 0.0});
-  std::fill_n(specimen.options.sides, 6, DIF_SIDE_EMPTY);
+  std::fill_n(specimen.options.boundary, 6, DIF_SIDE_EMPTY);
   specimen.origin = {-3.0, 10.0, 0.5};
   specimen.spacing = {0.5, 2.0, 1.0};
   return specimen;
@@ -134,7 +134,7 @@ TEST_CASE("attack: the judge knows whether a face is joined or separated") {
   for (const double value : {0.99, 0.9}) {
     for (const double other : {0.3, 0.05}) {
       Specimen specimen = plain({2, 2, 1}, {value, other, other, value});
-      std::fill_n(specimen.options.sides, 6, DIF_SIDE_EMPTY);
+      std::fill_n(specimen.options.boundary, 6, DIF_SIDE_EMPTY);
       Trial trial;
       REQUIRE(trial.run(specimen).kind == nullptr);
       dif_measure measure{};
@@ -193,7 +193,7 @@ TEST_CASE("attack: the specimens are of all kinds") {
     normals.insert(specimen.options.normals);
     types.insert(specimen.type);
     for (std::size_t side = 0; side < 6; ++side) {
-      sides[side].insert(specimen.options.sides[side]);
+      sides[side].insert(specimen.options.boundary[side]);
     }
     dims.insert(specimen.dims.begin(), specimen.dims.end());
     cut += specimen.cuts[0].size() + specimen.cuts[1].size() + specimen.cuts[2].size() > 0 ? 1 : 0;
@@ -239,15 +239,15 @@ TEST_CASE("attack: what once went wrong") {
       check(specimen);
     }
     specimen = plain({2, 2, 1}, {1.0, 0.75, 1.0, 0.95});
-    specimen.options.sides[2] = DIF_SIDE_FULL;
-    specimen.options.sides[3] = DIF_SIDE_EMPTY;
+    specimen.options.boundary[2] = DIF_SIDE_FULL;
+    specimen.options.boundary[3] = DIF_SIDE_EMPTY;
     specimen.options.purity_tolerance = 0.05;
     specimen.options.normals = DIF_NORMALS_YOUNGS;
     specimen.cuts[1] = {1};
     check(specimen);
     specimen = plain({1, 1, 2}, {0.25, 1e-300});
-    specimen.options.sides[2] = DIF_SIDE_EMPTY;
-    specimen.options.sides[5] = DIF_SIDE_FULL;
+    specimen.options.boundary[2] = DIF_SIDE_EMPTY;
+    specimen.options.boundary[5] = DIF_SIDE_FULL;
     specimen.options.normals = DIF_NORMALS_YOUNGS;
     specimen.cuts[2] = {1};
     check(specimen);

@@ -40,7 +40,7 @@ std::string dump_options(const dif_options& options) {
       text("options.placement = DIF_PLACEMENT_%s;\noptions.normals = DIF_NORMALS_%s;\n",
            kPlacements[options.placement], kNormals[options.normals]);
   words += "sides (x low, x high, y low, ...):";
-  for (const std::int32_t side : options.sides) {
+  for (const std::int32_t side : options.boundary) {
     words += text(" DIF_SIDE_%s", kSides[side]);
   }
   return words + text(

@@ -89,8 +89,8 @@ class Shrinker {
       simplify([&](Specimen& s) { s.spacing[a] = 1.0; });
       simplify([&](Specimen& s) { s.gaps[a] = 1; });
       simplify([&](Specimen& s) {
-        s.options.sides[2 * a] = DIF_SIDE_OPEN;
-        s.options.sides[2 * a + 1] = DIF_SIDE_OPEN;
+        s.options.boundary[2 * a] = DIF_SIDE_OPEN;
+        s.options.boundary[2 * a + 1] = DIF_SIDE_OPEN;
       });
     }
     simplify([&](Specimen& s) { s.memory_order = {0, 1, 2}; });

@@ -35,13 +35,13 @@ void choose_sides(Random& random, dif_options& options) {
   constexpr std::int32_t kAll[] = {DIF_SIDE_DEFAULT,  DIF_SIDE_OPEN,  DIF_SIDE_MIRROR,
                                    DIF_SIDE_PERIODIC, DIF_SIDE_EMPTY, DIF_SIDE_FULL};
   if (random.one_in(4)) {
-    std::fill_n(options.sides, 6, random.of(kAll));
+    std::fill_n(options.boundary, 6, random.of(kAll));
     return;
   }
   for (int axis = 0; axis < 3; ++axis) {
     const bool periodic = random.one_in(5);
-    options.sides[2 * axis] = periodic ? DIF_SIDE_PERIODIC : random.of(kAlone);
-    options.sides[2 * axis + 1] = periodic ? DIF_SIDE_PERIODIC : random.of(kAlone);
+    options.boundary[2 * axis] = periodic ? DIF_SIDE_PERIODIC : random.of(kAlone);
+    options.boundary[2 * axis + 1] = periodic ? DIF_SIDE_PERIODIC : random.of(kAlone);
   }
 }
 

@@ -47,7 +47,7 @@ struct Specimen {
   /// Of a cell, in [0, 1].
   [[nodiscard]] double fraction(const Index3& cell) const;
   [[nodiscard]] bool is_side(std::size_t axis, bool high, std::int32_t kind) const {
-    const std::int32_t side = options.sides[2 * axis + (high ? 1 : 0)];
+    const std::int32_t side = options.boundary[2 * axis + (high ? 1 : 0)];
     return side == kind || (side == DIF_SIDE_DEFAULT && kind == DIF_SIDE_OPEN);
   }
   [[nodiscard]] bool is_periodic(std::size_t axis) const {

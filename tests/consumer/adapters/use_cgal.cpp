@@ -2,7 +2,7 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
-#include <difmesh/cgal.hpp>
+#include <difmesh/adapters/cgal.hpp>
 
 #include "tetrahedron.hpp"
 

@@ -1,6 +1,6 @@
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
-#include <difmesh/openmesh.hpp>
+#include <difmesh/adapters/openmesh.hpp>
 
 #include "tetrahedron.hpp"
 

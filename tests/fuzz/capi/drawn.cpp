@@ -260,7 +260,7 @@ dif_options draw_options(Input& input, const Field& field) {
       (options.normals == DIF_NORMALS_ELVIRA || options.normals == DIF_NORMALS_LVIRA)) {
     options.normals = DIF_NORMALS_DEFAULT;
   }
-  draw_sides(input, options.sides);
+  draw_sides(input, options.boundary);
   options.vertex_normals = input.choice(1);
   options.edge_ids = input.choice(1);
   options.purity_tolerance = input.number_or_any(1e-6);

@@ -168,7 +168,7 @@ void call_mollify(Input& input) {
   Field field(input, 36);
   dif_mollify_options options = prepared(dif_mollify_options_init);
   options.radius = input.number_or_any(1.0 + 0.5 * static_cast<double>(input.number(4)));
-  draw_sides(input, options.sides);
+  draw_sides(input, options.boundary);
   options.threads = draw_threads(input);
   Watch watch(input);
   watch.attend(options);

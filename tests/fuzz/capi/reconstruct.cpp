@@ -52,9 +52,9 @@ void check_mesh(const dif_mesh* mesh, const Field& field, const dif_options& opt
   demand(facts.manifold == 1);
   demand(facts.isolated_vertices == 0);
   // Where sides of both kinds meet, the outside itself changes and the surface ends.
-  const std::int32_t first = options.sides[0];
+  const std::int32_t first = options.boundary[0];
   const bool closes = (first == DIF_SIDE_EMPTY || first == DIF_SIDE_FULL) &&
-                      std::all_of(options.sides, options.sides + 6,
+                      std::all_of(options.boundary, options.boundary + 6,
                                   [first](std::int32_t side) { return side == first; });
   demand(!closes || facts.closed == 1);
   dif_report report = prepared(dif_report_init);
@@ -206,7 +206,7 @@ void call_blocks(Input& input) {
   const Mesh whole = taken(status, made);
 
   const dif_grid grid = field.grid();
-  const bool periodic = options.sides[2 * cuts.axis] == DIF_SIDE_PERIODIC;
+  const bool periodic = options.boundary[2 * cuts.axis] == DIF_SIDE_PERIODIC;
   std::vector<Mesh> meshes;
   std::vector<const dif_mesh*> borrowed;
   for (std::size_t n = 1; n < cuts.at.size(); ++n) {

@@ -24,7 +24,7 @@ struct MeshFormat {
   bool normals = false;        ///< per vertex
   bool edge_ids = false;       ///< Mesh::edge_ids
   bool scalars = false;        ///< Mesh::scalars
-  bool colours = false;        ///< WriteMeshOptions::colour
+  bool colors = false;         ///< WriteMeshOptions::color
   bool scene = false;          ///< the options of scenes in WriteMeshOptions
   bool streamed = false;       ///< MeshStream writes it
   Compression compression = Compression::none;

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "difmesh/grid.hpp"
-#include "difmesh/io/colour_map.hpp"
+#include "difmesh/io/color_map.hpp"
 #include "difmesh/io/draco_options.hpp"
 
 namespace difmesh {
@@ -20,9 +20,9 @@ enum class UpAxis : std::uint8_t {
 };
 
 /// Colours by a scalar of the mesh.
-struct ColourBy {
+struct ColorBy {
   std::string scalars;  ///< the name of one of the scalars written
-  ColourMap map = ColourMap::viridis;
+  ColorMap map = ColorMap::viridis;
   /// Values of the first and the last colour; values beyond get these. Not set: the least and the
   /// greatest value; for cool_warm, as far from 0 on both sides.
   std::optional<std::array<double, 2>> range = {};
@@ -36,7 +36,7 @@ struct WriteMeshOptions {
   bool edge_ids = true;  ///< write edge ids, where the mesh and the format have them
   bool scalars = true;   ///< write scalars, where the mesh and the format have them
 
-  std::optional<ColourBy> colour = {};     ///< formats with colours; none: light grey
+  std::optional<ColorBy> color = {};       ///< formats with colours; none: light grey
   std::optional<DracoOptions> draco = {};  ///< compress glTF; how to compress .drc
 
   // For formats that hold a scene.

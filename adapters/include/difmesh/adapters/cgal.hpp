@@ -19,8 +19,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "difmesh/detail/cgal_writer.hpp"
-#include "difmesh/mesh_view.hpp"
+#include "difmesh/adapters/detail/cgal_writer.hpp"
+#include "difmesh/adapters/mesh_view.hpp"
 
 namespace difmesh {
 

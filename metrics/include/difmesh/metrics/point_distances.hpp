@@ -4,8 +4,8 @@
 
 #include <span>
 
-#include "difmesh/distance.hpp"
 #include "difmesh/mesh.hpp"
+#include "difmesh/metrics/distance.hpp"
 
 namespace difmesh {
 

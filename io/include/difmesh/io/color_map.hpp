@@ -1,5 +1,5 @@
 #pragma once
-/// \file colour_map.hpp
+/// \file color_map.hpp
 /// Colours for scalar values.
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace difmesh {
 
-enum class ColourMap : std::uint8_t {
+enum class ColorMap : std::uint8_t {
   /// From dark blue over green to yellow; equal steps look equal and get lighter, in print and to
   /// the colour-blind too. Source: S. van der Walt, N. Smith, 2015 (public domain, CC0).
   viridis,
@@ -17,13 +17,13 @@ enum class ColourMap : std::uint8_t {
 };
 
 /// Red, green and blue in [0,1], as screens take them (sRGB).
-using Colour = std::array<double, 3>;
+using Color = std::array<double, 3>;
 
 /// The colour of a share, which is clamped to [0,1]; NaN counts as 0.
 /// Cost: constant. Thread safety: pure function.
-[[nodiscard]] Colour colour_of(ColourMap map, double share) noexcept;
+[[nodiscard]] Color color_of(ColorMap map, double share) noexcept;
 
 /// The same colour in linear light, as glTF and shaders take it. Source: IEC 61966-2-1.
-[[nodiscard]] Colour to_linear(const Colour& colour) noexcept;
+[[nodiscard]] Color to_linear(const Color& color) noexcept;
 
 }  // namespace difmesh

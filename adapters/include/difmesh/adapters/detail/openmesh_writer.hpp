@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "difmesh/detail/export_mesh.hpp"
-#include "difmesh/detail/import_plan.hpp"
+#include "difmesh/adapters/detail/export_mesh.hpp"
+#include "difmesh/adapters/detail/import_plan.hpp"
 
 namespace difmesh::detail {
 

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "difmesh/detail/halfedges.hpp"
+#include "difmesh/adapters/detail/halfedges.hpp"
 
 namespace difmesh::detail {
 

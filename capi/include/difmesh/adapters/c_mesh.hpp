@@ -8,10 +8,10 @@
 #include <cstdint>
 #include <string>
 
+#include "difmesh/adapters/mesh_view.hpp"
 #include "difmesh/difmesh.h"
 #include "difmesh/error.hpp"
 #include "difmesh/mesh.hpp"
-#include "difmesh/mesh_view.hpp"
 
 namespace difmesh {
 

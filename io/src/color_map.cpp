@@ -1,4 +1,4 @@
-#include "difmesh/io/colour_map.hpp"
+#include "difmesh/io/color_map.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,22 +34,22 @@ constexpr double from_hex(char digit) {
   return digit <= '9' ? digit - '0' : digit - 'a' + 10;
 }
 
-Colour viridis_entry(std::size_t index) {
-  Colour colour{};
+Color viridis_entry(std::size_t index) {
+  Color color{};
   for (std::size_t c = 0; c < 3; ++c) {
     const std::size_t at = 6 * index + 2 * c;
-    colour[c] = (16.0 * from_hex(kViridis[at]) + from_hex(kViridis[at + 1])) / 255.0;
+    color[c] = (16.0 * from_hex(kViridis[at]) + from_hex(kViridis[at + 1])) / 255.0;
   }
-  return colour;
+  return color;
 }
 
-Colour viridis(double share) {
+Color viridis(double share) {
   constexpr std::size_t kLast = kViridis.size() / 6 - 1;
   const double place = share * static_cast<double>(kLast);
   const std::size_t low = std::min(static_cast<std::size_t>(place), kLast - 1);
   const double weight = place - static_cast<double>(low);
-  const Colour a = viridis_entry(low);
-  const Colour b = viridis_entry(low + 1);
+  const Color a = viridis_entry(low);
+  const Color b = viridis_entry(low + 1);
   return {a[0] + weight * (b[0] - a[0]), a[1] + weight * (b[1] - a[1]),
           a[2] + weight * (b[2] - a[2])};
 }
@@ -73,8 +73,8 @@ double lab_curve_inverse(double f) {
 }
 
 /// Moreland's Msh: Lab in polar coordinates about black: size, angle from the axis, hue.
-Colour msh_of(const Colour& screen) {
-  const Colour rgb = to_linear(screen);
+Color msh_of(const Color& screen) {
+  const Color rgb = to_linear(screen);
   const double x = 0.4124564 * rgb[0] + 0.3575761 * rgb[1] + 0.1804375 * rgb[2];
   const double y = 0.2126729 * rgb[0] + 0.7151522 * rgb[1] + 0.0721750 * rgb[2];
   const double z = 0.0193339 * rgb[0] + 0.1191920 * rgb[1] + 0.9503041 * rgb[2];
@@ -88,7 +88,7 @@ Colour msh_of(const Colour& screen) {
   return {size, std::acos(l / size), std::atan2(b, a)};
 }
 
-Colour screen_of_msh(const Colour& msh) {
+Color screen_of_msh(const Color& msh) {
   const double l = msh[0] * std::cos(msh[1]);
   const double a = msh[0] * std::sin(msh[1]) * std::cos(msh[2]);
   const double b = msh[0] * std::sin(msh[1]) * std::sin(msh[2]);
@@ -96,16 +96,16 @@ Colour screen_of_msh(const Colour& msh) {
   const double x = kWhite[0] * lab_curve_inverse(fy + a / 500.0);
   const double y = kWhite[1] * lab_curve_inverse(fy);
   const double z = kWhite[2] * lab_curve_inverse(fy - b / 200.0);
-  const Colour rgb{3.2404542 * x - 1.5371385 * y - 0.4985314 * z,
-                   -0.9692660 * x + 1.8760108 * y + 0.0415560 * z,
-                   0.0556434 * x - 0.2040259 * y + 1.0572252 * z};
+  const Color rgb{3.2404542 * x - 1.5371385 * y - 0.4985314 * z,
+                  -0.9692660 * x + 1.8760108 * y + 0.0415560 * z,
+                  0.0556434 * x - 0.2040259 * y + 1.0572252 * z};
   return {std::clamp(screen_of(rgb[0]), 0.0, 1.0), std::clamp(screen_of(rgb[1]), 0.0, 1.0),
           std::clamp(screen_of(rgb[2]), 0.0, 1.0)};
 }
 
 /// The hue towards which a saturated colour fades on its way to grey of that size, so that the
 /// change looks even; away from purple, which would look like a third colour.
-double spun_hue(const Colour& msh, double grey_size) {
+double spun_hue(const Color& msh, double grey_size) {
   if (msh[0] >= grey_size) {
     return msh[2];
   }
@@ -114,15 +114,15 @@ double spun_hue(const Colour& msh, double grey_size) {
   return msh[2] > -1.0471975511965976 ? msh[2] + spin : msh[2] - spin;
 }
 
-Colour cool_warm(double share) {
-  constexpr Colour kBlue{0.230, 0.299, 0.754};
-  constexpr Colour kRed{0.706, 0.016, 0.150};
+Color cool_warm(double share) {
+  constexpr Color kBlue{0.230, 0.299, 0.754};
+  constexpr Color kRed{0.706, 0.016, 0.150};
   constexpr double kLeastGrey = 88.0;
-  const Colour blue = msh_of(kBlue);
-  const Colour red = msh_of(kRed);
+  const Color blue = msh_of(kBlue);
+  const Color red = msh_of(kRed);
   const double grey_size = std::max({blue[0], red[0], kLeastGrey});
-  const Colour& end = share < 0.5 ? blue : red;
-  const Colour grey{grey_size, 0.0, spun_hue(end, grey_size)};
+  const Color& end = share < 0.5 ? blue : red;
+  const Color grey{grey_size, 0.0, spun_hue(end, grey_size)};
   const double weight = share < 0.5 ? 2.0 * share : 2.0 - 2.0 * share;
   return screen_of_msh({end[0] + weight * (grey[0] - end[0]), end[1] + weight * (grey[1] - end[1]),
                         end[2] + weight * (grey[2] - end[2])});
@@ -130,13 +130,13 @@ Colour cool_warm(double share) {
 
 }  // namespace
 
-Colour colour_of(ColourMap map, double share) noexcept {
+Color color_of(ColorMap map, double share) noexcept {
   const double within = share > 0.0 ? std::min(share, 1.0) : 0.0;  // NaN is not above 0
-  return map == ColourMap::viridis ? viridis(within) : cool_warm(within);
+  return map == ColorMap::viridis ? viridis(within) : cool_warm(within);
 }
 
-Colour to_linear(const Colour& colour) noexcept {
-  return {linear_of(colour[0]), linear_of(colour[1]), linear_of(colour[2])};
+Color to_linear(const Color& color) noexcept {
+  return {linear_of(color[0]), linear_of(color[1]), linear_of(color[2])};
 }
 
 }  // namespace difmesh

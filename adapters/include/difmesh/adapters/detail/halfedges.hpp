@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "difmesh/mesh_view.hpp"
+#include "difmesh/adapters/mesh_view.hpp"
 
 namespace difmesh::detail {
 

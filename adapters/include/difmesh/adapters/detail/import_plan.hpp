@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "difmesh/detail/halfedges.hpp"
-#include "difmesh/detail/refuse_faces.hpp"
+#include "difmesh/adapters/detail/halfedges.hpp"
+#include "difmesh/adapters/detail/refuse_faces.hpp"
 
 namespace difmesh::detail {
 

@@ -10,9 +10,9 @@
 #include <limits>
 #include <utility>
 
-#include "difmesh/detail/import_plan.hpp"
-#include "difmesh/detail/openmesh_writer.hpp"
-#include "difmesh/mesh_view.hpp"
+#include "difmesh/adapters/detail/import_plan.hpp"
+#include "difmesh/adapters/detail/openmesh_writer.hpp"
+#include "difmesh/adapters/mesh_view.hpp"
 
 namespace difmesh {
 
