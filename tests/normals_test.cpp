@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <random>
+#include <regex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -98,6 +100,40 @@ struct PublishedMyc {
     }
     m[axis] = lower_minus_upper > 0.0 ? 1.0 : -1.0;
     return to_unit_sum(m);
+  }
+};
+
+/// The nine columns about a cell along the axis that a normal points along, each read as a word of
+/// its cells from the material's end on: F full, I interfacial, E empty.
+struct WordsOfColumns {
+  bool all_consistent = true;
+  Vec3 normal{0.0, 0.0, 0.0};  ///< from the sums of the columns
+
+  WordsOfColumns(test::OwnedField& field, const Index3& cell, const Vec3& towards) {
+    static const std::regex consistent("F+I*E+");
+    std::size_t axis = 0;
+    for (std::size_t t = 1; t < 3; ++t) {
+      axis = std::abs(towards[t]) > std::abs(towards[axis]) ? t : axis;
+    }
+    const std::int64_t outward = towards[axis] > 0.0 ? 1 : -1;
+    double height[3][3] = {};
+    for (std::int64_t n = 0; n < 9; ++n) {
+      std::string word;
+      for (std::int64_t step = -4; step <= 4; ++step) {
+        Index3 at = cell;
+        at[axis] += outward * step;
+        at[(axis + 1) % 3] += n % 3 - 1;
+        at[(axis + 2) % 3] += n / 3 - 1;
+        const double fraction = field.at(at[0], at[1], at[2]);
+        height[n % 3][n / 3] += fraction;
+        word += fraction >= 1 - 1e-6 ? 'F' : (fraction <= 1e-6 ? 'E' : 'I');
+      }
+      all_consistent = all_consistent && std::regex_match(word, consistent);
+    }
+    normal[axis] = static_cast<double>(outward);
+    normal[(axis + 1) % 3] = (height[0][1] - height[2][1]) / 2;
+    normal[(axis + 2) % 3] = (height[1][0] - height[1][2]) / 2;
+    normal = test::scaled(normal, 1.0 / std::hypot(normal[0], normal[1], normal[2]));
   }
 };
 
@@ -278,4 +314,60 @@ TEST_CASE("planes of cells have the same bits whether x runs through memory or n
             (normals != difmesh::Normals::youngs));
     }
   }
+}
+
+TEST_CASE(
+    "heights make the normal where all nine columns run from full to empty, and nowhere else") {
+  test::OwnedField field = test::blob({44, 40, 37});
+  std::mt19937_64 random(11);
+  for (double& value : field.values) {
+    constexpr double kOdd[] = {0.0, 1e-6, 1.1e-6, 0.01, 1 - 1.1e-6, 1 - 1e-6, 1.0};
+    if (random() % 150 == 0) {
+      value = kOdd[random() % 7];
+    }
+  }
+  const Grid grid{field.dims, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}};
+  std::vector<Index3> cells;
+  for (const Index3& cell : difmesh::interfacial_cells(field.view(), grid)) {
+    if (*std::min_element(cell.begin(), cell.end()) >= 4 && cell[0] < field.dims[0] - 4 &&
+        cell[1] < field.dims[1] - 4 && cell[2] < field.dims[2] - 4) {
+      cells.push_back(cell);
+    }
+  }
+  // In batches of eight along x, in batches of four, and one by one.
+  std::vector<double> apart(2 * field.values.size());
+  for (std::size_t n = 0; n < field.values.size(); ++n) {
+    apart[2 * n] = field.values[n];
+  }
+  FieldView strided = FieldView::x_fastest(apart.data(), field.dims);
+  strided.strides = {2, 2 * field.dims[0], 2 * field.dims[0] * field.dims[1]};
+  std::vector<CellPlane> without(cells.size());
+  std::vector<CellPlane> together(cells.size());
+  std::vector<CellPlane> alone(cells.size());
+  Options options;
+  difmesh::cell_planes(field.view(), grid, cells, options, together);
+  difmesh::cell_planes(strided, grid, cells, options, alone);
+  options.normals = difmesh::Normals::myc;
+  difmesh::cell_planes(field.view(), grid, cells, options, without);
+  int consistent = 0;
+  int inconsistent = 0;
+  for (std::size_t n = 0; n < cells.size(); ++n) {
+    const Vec3& towards = without[n].plane.normal;
+    Vec3 sizes{std::abs(towards[0]), std::abs(towards[1]), std::abs(towards[2])};
+    std::sort(sizes.begin(), sizes.end());
+    if (without[n].source == NormalSource::none || sizes[2] - sizes[1] < 1e-6) {
+      continue;
+    }
+    const WordsOfColumns words(field, cells[n], towards);
+    ++(words.all_consistent ? consistent : inconsistent);
+    for (const CellPlane& plane : {together[n], alone[n]}) {
+      REQUIRE((plane.source == NormalSource::height_function) == words.all_consistent);
+      const Vec3& expected = words.all_consistent ? words.normal : towards;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        REQUIRE(std::abs(plane.plane.normal[axis] - expected[axis]) < 1e-13);
+      }
+    }
+  }
+  CHECK(consistent > 500);
+  CHECK(inconsistent > 400);
 }

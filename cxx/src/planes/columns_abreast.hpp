@@ -13,13 +13,15 @@ struct OrderOf<Doubles2> {
   using type = Longs2;
 };
 
-// Elements of as many columns as the machine takes at once.
+// Elements of as many columns as the machine takes at once, and as many doubles.
 template <class T>
 struct Abreast {
 #if defined(__AVX__)
   using V = Eight<T>;
+  using Wide = Doubles8;
 #else
   using V = Four<T>;
+  using Wide = Doubles4;
 #endif
 };
 template <>
@@ -31,6 +33,7 @@ struct Abreast<double> {
 #else
   using V = Doubles2;
 #endif
+  using Wide = V;
 };
 
 template <class V>
@@ -74,17 +77,15 @@ template <class T>
   using V = typename Abreast<T>::V;
   using I = Order<V>;
   constexpr int kWidth = static_cast<int>(sizeof(V) / sizeof(V{}[0]));
-  typedef double Wide __attribute__((vector_size(kWidth * sizeof(double))));
-  constexpr int kCells = 2 * kReach + 1;
+  using Wide = typename Abreast<T>::Wide;
   block.inconsistent = 0;
   for (int place = 0; place < kAbreast; place += kWidth) {
-    I wrong{};
+    ColumnCheck<I> check;
     for (int row = 0; row < 3; ++row) {
-      const T* const start = first + (row - 1) * across + place - kReach * along;
-      Wide value[kCells];
-      Filled<I> before{};
+      const T* const start = first + (row - 1) * across + place - kColumnReach * along;
+      Wide value[kColumn];
 #pragma GCC unroll 9
-      for (int n = 0; n < kCells; ++n) {
+      for (int n = 0; n < kColumn; ++n) {
         V cells = load_elements<V>(start + n * along);
         if constexpr (kIsFloating<T>) {
           cells = in_range(cells);
@@ -92,17 +93,13 @@ template <class T>
         } else {
           value[n] = fractions<T, Wide>(cells);
         }
-        const Filled<I> now = filled_at(task, (I)cells);
-        wrong |= n == 0 ? ~now.full : disorder(before, now);
-        before = now;
+        check.add(n, filled_at(task, (I)cells));
       }
-      wrong |= before.some;
-      const Wide height = (((value[0] + value[8]) + (value[2] + value[6])) +
-                           ((value[1] + value[7]) + (value[3] + value[5]))) +
-                          value[4];
+      check.end();
+      const Wide height = height_of(value);
       __builtin_memcpy(block.height[row] + place, &height, sizeof height);
     }
-    block.inconsistent |= negative_bits(wrong) << place;
+    block.inconsistent |= negative_bits(check.wrong) << place;
   }
 }
 

@@ -3,12 +3,10 @@
 // here.
 
 #include "lanes/lanes.hpp"
+#include "planes/column_rule.hpp"
 #include "planes/kernels.hpp"
 
 namespace difmesh::detail::DIFMESH_INSTRUCTIONS {
-
-// Cells on each side of the centre in a column of heights.
-constexpr int kReach = 4;
 
 typedef float Floats4 __attribute__((vector_size(16)));
 typedef double Doubles4 __attribute__((vector_size(32)));
@@ -166,27 +164,15 @@ template <class T>
   return result;
 }
 
-// What fills cells, as signs of integers, which need no masks: negative where a cell is full, and
-// where it is not empty.
-template <class I>
-struct Filled {
-  I full;
-  I some;
-};
+// By the limits of a task.
 template <class T, class I>
 [[gnu::always_inline]] inline Filled<I> filled_at(const PlaneTask<T>& task, const I& places) {
-  return {(I{} + (order_of(task.least_full) - 1)) - places,
-          (I{} + order_of(task.most_empty)) - places};
+  return filled(places, order_of(task.least_full), order_of(task.most_empty));
 }
 template <class T, class V>
-[[gnu::always_inline]] inline Filled<Order<V>> filled(const PlaneTask<T>& task, const V& values) {
+[[gnu::always_inline]] inline Filled<Order<V>> filled_by(const PlaneTask<T>& task,
+                                                         const V& values) {
   return filled_at(task, order<T>(values));
-}
-// Negative where full cells do not come before all others, and empty ones after all others, from
-// the first vector of cells to the next.
-template <class I>
-[[gnu::always_inline]] inline I disorder(const Filled<I>& first, const Filled<I>& next) {
-  return (next.full & ~first.full) | (next.some & ~first.some);
 }
 
 // Three rows of four elements, in as many vectors as are best.
@@ -260,34 +246,30 @@ template <class T>
                                                     std::int64_t along, std::int64_t across,
                                                     Heights& heights) {
   using Rows = ThreeRows<T>;
-  typename Rows::I wrong[Rows::kVectors];
-  Filled<typename Rows::I> before[Rows::kVectors];
-  Doubles4 sum[2 * kReach + 1];
+  ColumnCheck<typename Rows::I> check[Rows::kVectors];
+  Doubles4 cells[kColumn];
 #pragma GCC unroll 9
-  for (int n = 0; n <= 2 * kReach; ++n) {
-    const T* const place = centre + (n - kReach) * along - 1;
+  for (int n = 0; n < kColumn; ++n) {
+    const T* const place = centre + (n - kColumnReach) * along - 1;
     const Four<T> row[3] = {load_elements<Four<T>>(place - across), load_elements<Four<T>>(place),
                             load_elements<Four<T>>(place + across)};
     typename Rows::V all[Rows::kVectors];
     Rows::join(row, all);
     for (int v = 0; v < Rows::kVectors; ++v) {
-      const auto now = filled(task, all[v]);
-      wrong[v] = n == 0 ? ~now.full : wrong[v] | disorder(before[v], now);
-      before[v] = now;
+      check[v].add(n, filled_by(task, all[v]));
     }
     const Four<T> three = __builtin_shufflevector(row[1], row[0], 0, 5, 2, 3);
-    sum[n] = fractions<T, Doubles4>(__builtin_shufflevector(three, row[2], 0, 1, 2, 5));
+    cells[n] = fractions<T, Doubles4>(__builtin_shufflevector(three, row[2], 0, 1, 2, 5));
   }
   bool consistent = true;
   for (int v = 0; v < Rows::kVectors; ++v) {
-    consistent =
-        consistent & (negative_bits((wrong[v] | before[v].some) & Rows::three_of_four()) == 0);
+    check[v].end();
+    consistent = consistent & (negative_bits(check[v].wrong & Rows::three_of_four()) == 0);
   }
   if (!consistent) {
     return false;
   }
-  const Doubles4 height =
-      (((sum[0] + sum[8]) + (sum[2] + sum[6])) + ((sum[1] + sum[7]) + (sum[3] + sum[5]))) + sum[4];
+  const Doubles4 height = height_of(cells);
   heights = {{height[0], height[1]}, {height[2], height[3]}};
   return true;
 }
@@ -297,8 +279,8 @@ template <class T>
   const Doubles4 low = fractions<T, Doubles4>(load_elements<Four<T>>(low_end));
   const Doubles4 high = fractions<T, Doubles4>(load_elements<Four<T>>(low_end + 5));
   const Doubles4 pairs = low + __builtin_shufflevector(high, high, 3, 2, 1, 0);
-  const Doubles4 middle = fractions<T, Doubles4>(Four<T>{} + low_end[kReach]);
-  return ((pairs[0] + pairs[2]) + (pairs[1] + pairs[3])) + middle[0];
+  const Doubles4 middle = fractions<T, Doubles4>(Four<T>{} + low_end[kColumnReach]);
+  return height_of_pairs(pairs, middle[0]);
 }
 
 // The same for columns along x. Heights: [0] along y, [1] along z.
@@ -317,18 +299,19 @@ template <bool kMaterialLow, class T>
   I wrong{};
   for (int v = -1; v <= 1; ++v) {
     for (int u = -1; u <= 1; ++u) {
-      const T* const low_end = centre + u * y + v * z - kReach;
-      const auto lower = filled(task, load_elements<Eight<T>>(low_end));
-      const auto upper = filled(task, load_elements<Eight<T>>(low_end + 1));
+      const T* const low_end = centre + u * y + v * z - kColumnReach;
+      const auto lower = filled_by(task, load_elements<Eight<T>>(low_end));
+      const auto upper = filled_by(task, load_elements<Eight<T>>(low_end + 1));
       const auto& first = kMaterialLow ? lower : upper;
       const auto& next = kMaterialLow ? upper : lower;
-      wrong |= disorder(first, next) | (~first.full & is_first) | (next.some & is_last);
+      wrong |=
+          wrong_order(first, next) | (wrong_start(first) & is_first) | (wrong_end(next) & is_last);
     }
   }
   if (negative_bits(wrong) != 0) {
     return false;
   }
-  const T* low_end = centre - kReach;
+  const T* low_end = centre - kColumnReach;
   heights = {{height_along_x(low_end - y), height_along_x(low_end - z)},
              {height_along_x(low_end + y), height_along_x(low_end + z)}};
   return true;

@@ -9,6 +9,9 @@ namespace difmesh::detail {
 /// How many cells or edges a kernel takes at once.
 inline constexpr int kBatch = 16;
 
+/// Cells on each side of the middle one in a column of heights.
+inline constexpr int kColumnReach = 4;
+
 /// What the heights of a field of T go by, and how the field lies in memory.
 template <class T>
 struct PlaneTask {

@@ -1,8 +1,10 @@
 #include "planes/normal_stencil.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
+#include "planes/column_rule.hpp"
 #include "planes/fitted_normals.hpp"
 #include "planes/normal_math.hpp"
 #include "planes/plane_fit.hpp"
@@ -11,8 +13,6 @@ namespace difmesh {
 namespace detail {
 namespace {
 
-// Cells on each side of the centre in a column of heights.
-constexpr int kReach = 4;
 using baseline::kTie;
 
 double norm1(const Vec3& v) {
@@ -93,7 +93,7 @@ double NormalStencil<T>::fraction(const Index3& resolved) const {
 template <class T>
 bool NormalStencil<T>::is_inside(const Index3& cell, std::size_t axis) const {
   for (std::size_t t = 0; t < 3; ++t) {
-    const std::int64_t reach = t == axis ? kReach : 1;
+    const std::int64_t reach = t == axis ? kColumnReach : 1;
     if (cell[t] - reach < field_.axes[t].low || cell[t] + reach >= field_.axes[t].high) {
       return false;
     }
@@ -195,15 +195,15 @@ bool NormalStencil<T>::add_heights(const Index3& cell, std::size_t axis, double 
   if (is_inside(cell, axis)) {
     const Index3& step = field_.view.strides;
     const std::int64_t along = sense > 0.0 ? step[axis] : -step[axis];
-    const T* centre = data_ + field_.element(cell) - kReach * along;
+    const T* centre = data_ + field_.element(cell) - kColumnReach * along;
     for (const int u : {1, 0, 2}) {
       for (const int v : {1, 0, 2}) {
         const T* end = centre + (u - 1) * step[other] + (v - 1) * step[third];
-        Column column{};
-        for (int n = 0; n <= 2 * kReach; ++n) {
-          column[static_cast<std::size_t>(n)] = fraction_of(end[n * along]);
+        Column column;
+        for (int n = 0; n < baseline::kColumn; ++n) {
+          column[n] = fraction_of(end[n * along]);
         }
-        if (!is_column(column, 2 * kReach + 1, height[u][v])) {
+        if (!is_column(column, baseline::kColumn, height[u][v])) {
           return false;
         }
       }
@@ -239,20 +239,20 @@ bool NormalStencil<T>::add_heights(const Index3& cell, std::size_t axis, double 
   return true;
 }
 
-// Sums nine cells, or what the domain has of them, from the material's end. Consistent: full cells,
-// then interfacial ones, then empty ones, at least one full and one empty.
+// Of nine cells, or what the domain has of them, from the material's end on.
 template <class T>
 bool NormalStencil<T>::is_column(const Column& column, int count, double& height) const {
-  // From both ends to the middle: the same from either side.
-  height = ((column[0] + column[8]) + (column[2] + column[6])) +
-           ((column[1] + column[7]) + (column[3] + column[5])) + column[4];
-  bool consistent = column[0] >= full_ && column[static_cast<std::size_t>(count - 1)] <= empty_;
-  for (std::size_t n = 1; n < static_cast<std::size_t>(count); ++n) {
-    const bool full_again = column[n] >= full_ && !(column[n - 1] >= full_);
-    const bool filled_again = column[n] > empty_ && !(column[n - 1] > empty_);
-    consistent = consistent && !full_again && !filled_again;
+  const auto place = [](double fraction) { return std::bit_cast<std::int64_t>(fraction); };
+  baseline::ColumnCheck<std::int64_t> check;
+  for (int n = 0; n < count; ++n) {
+    check.add(n, baseline::filled(place(column[n]), place(full_), place(empty_)));
+    if (check.wrong < 0) {
+      return false;
+    }
   }
-  return consistent;
+  check.end();
+  height = baseline::height_of(column);
+  return check.wrong >= 0;
 }
 
 template <class T>
@@ -260,7 +260,7 @@ typename NormalStencil<T>::SideColumns NormalStencil<T>::side_columns(const Inde
                                                                       std::size_t axis,
                                                                       double sense) const {
   SideColumns columns;
-  for (std::int64_t n = -kReach; n <= kReach; ++n) {
+  for (std::int64_t n = -kColumnReach; n <= kColumnReach; ++n) {
     const std::int64_t index = field_.axes[axis].resolve(cell[axis] + n);
     if (index != kMissing) {
       columns.along[static_cast<std::size_t>(columns.count++)] = index;

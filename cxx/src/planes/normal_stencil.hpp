@@ -5,6 +5,7 @@
 
 #include "difmesh/plane.hpp"
 #include "grid/block_field.hpp"
+#include "planes/kernels.hpp"
 
 namespace difmesh::detail {
 
@@ -50,8 +51,7 @@ class NormalStencil {
   [[nodiscard]] bool column_at_side(const SideColumns& columns, std::size_t axis, int u, int v,
                                     double& height) const;
   // Fractions from the material's end, zeros behind the last.
-  static constexpr int kColumn = 9;
-  using Column = std::array<double, kColumn>;
+  using Column = double[2 * kColumnReach + 1];
   [[nodiscard]] bool is_column(const Column& column, int count, double& height) const;
 
   const BlockField& field_;

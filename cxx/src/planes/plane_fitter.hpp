@@ -66,9 +66,6 @@ T most_empty(double purity_tolerance) {
   }
 }
 
-/// Cells on each side of the middle one in a column of heights.
-inline constexpr std::int64_t kColumnReach = 4;
-
 /// What all fitters of one field share.
 template <class T>
 struct FitterPlan {
