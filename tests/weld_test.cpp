@@ -9,6 +9,7 @@
 
 #include "difmesh/error.hpp"
 #include "difmesh/reconstruct.hpp"
+#include "placement/placement.hpp"
 #include "support/blocks.hpp"
 #include "support/fields.hpp"
 #include "support/near_pure.hpp"
@@ -83,6 +84,72 @@ TEST_CASE("weld: every placement and normal") {
       check_blocks(field, {6, 5, 4}, options);
     }
   }
+}
+
+TEST_CASE("weld: blocks depend on as many ghost layers as the placement and the normals reach") {
+  std::mt19937_64 random(23);
+  const OwnedField noise = test::white_noise({15, 14, 13}, 8);
+  const OwnedField blob = test::blob({30, 28, 26});
+  // The field in blocks whose cells beyond some ghost layers are those of another field.
+  const auto in_blocks_of = [&](const OwnedField& field, std::int64_t layers,
+                                const Options& options) {
+    const Grid grid{field.dims, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}};
+    std::vector<Mesh> meshes;
+    for (test::BlockData& data :
+         test::cut_up(field, {{{field.dims[0] / 2}, {field.dims[1] / 3}, {7}}}, options)) {
+      const Block& block = data.block;
+      for (std::size_t n = 0; n < data.cells.values.size(); ++n) {
+        const auto number = static_cast<std::int64_t>(n);
+        const Index3& dims = data.cells.dims;
+        const Index3 cell{number % dims[0], number / dims[0] % dims[1], number / dims[0] / dims[1]};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const std::int64_t from = block.ghost_low[axis] - layers;
+          const std::int64_t to = block.ghost_low[axis] + block.dims[axis] + layers;
+          if (cell[axis] < from || cell[axis] >= to) {
+            data.cells.values[n] = static_cast<double>(random() % 1000) * 1e-3;
+          }
+        }
+      }
+      meshes.push_back(reconstruct_block(data.cells.view(), block, grid, options).mesh);
+    }
+    return weld(meshes, grid);
+  };
+  std::int64_t most = 0;
+  for (const Placement placement :
+       {Placement::midpoint, Placement::linear, Placement::manson, Placement::plic}) {
+    for (const Normals normals : {Normals::youngs, Normals::myc, Normals::height_function,
+                                  Normals::elvira, Normals::lvira}) {
+      for (const bool vertex_normals : {false, true}) {
+        CAPTURE(static_cast<int>(placement));
+        CAPTURE(static_cast<int>(normals));
+        CAPTURE(vertex_normals);
+        Options options;
+        options.placement = placement;
+        options.normals = normals;
+        options.vertex_normals = vertex_normals;
+        options.edge_ids = true;
+        options.boundary = {Side::periodic, Side::periodic, Side::open,
+                            Side::mirror,   Side::open,     Side::full};
+        const std::int64_t layers = detail::ghost_layers(options);
+        REQUIRE(layers >= 1);
+        most = std::max(most, layers);
+        bool would_fewer_do = true;
+        for (const OwnedField* const field : {&noise, &blob}) {
+          const Grid grid{field->dims, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}};
+          const Mesh whole = reconstruct(field->view(), grid, options).mesh;
+          CHECK(test::same_bits(in_blocks_of(*field, layers, options), whole));
+          try {
+            would_fewer_do =
+                would_fewer_do && test::same_bits(in_blocks_of(*field, layers - 1, options), whole);
+          } catch (const Error&) {  // the blocks do not fit together
+            would_fewer_do = false;
+          }
+        }
+        CHECK(!would_fewer_do);
+      }
+    }
+  }
+  CHECK(most == kGhostLayers);
 }
 
 TEST_CASE("weld: cells as good as pure have the same plane for every block that asks") {

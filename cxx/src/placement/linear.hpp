@@ -3,7 +3,7 @@
 
 namespace difmesh::detail {
 
-/// The position where the fractions, interpolated, are 1/2; see PlacementPart::position.
+/// The position where the fractions, interpolated, are 1/2; see FractionBatch::position.
 [[nodiscard]] double linear_position(double outer, double inner);
 
 }  // namespace difmesh::detail

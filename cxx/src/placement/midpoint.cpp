@@ -1,7 +1,14 @@
 #include "placement/placement.hpp"
 
 namespace difmesh::detail {
+namespace {
 
-const PlacementPart kMidpoint{false, [](double, double) { return 0.5; }};
+double midpoint_position(double, double) {
+  return 0.5;
+}
+
+}  // namespace
+
+const PlacementPart kMidpoint{false, 1, place_each<midpoint_position>};
 
 }  // namespace difmesh::detail

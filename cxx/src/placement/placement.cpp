@@ -1,5 +1,7 @@
 #include "placement/placement.hpp"
 
+#include "planes/normal_stencil.hpp"
+
 namespace difmesh::detail {
 
 const PlacementPart& placement_part(Placement placement) {
@@ -14,6 +16,12 @@ const PlacementPart& placement_part(Placement placement) {
       break;
   }
   return kPlic;
+}
+
+std::int64_t ghost_layers(const Options& options) {
+  const PlacementPart& placement = placement_part(options.placement);
+  const bool with_planes = placement.by_planes || options.vertex_normals;
+  return placement.reach + (with_planes ? stencil_reach(options.normals) : 0);
 }
 
 }  // namespace difmesh::detail

@@ -5,6 +5,6 @@
 
 namespace difmesh::detail {
 
-const PlacementPart kPlic{true, nullptr};
+const PlacementPart kPlic{true, 1, nullptr};
 
 }  // namespace difmesh::detail

@@ -16,6 +16,21 @@ struct UnitNormal {
   NormalSource source = NormalSource::none;
 };
 
+/// Layers of cells around a cell that its normal depends on.
+[[nodiscard]] constexpr std::int64_t stencil_reach(Normals normals) {
+  switch (normals) {
+    case Normals::youngs:
+    case Normals::myc:
+    case Normals::lvira:
+      break;
+    case Normals::height_function:
+      return kColumnReach;
+    case Normals::elvira:
+      return 2;
+  }
+  return 1;
+}
+
 /// Estimates normals of cells of one field. Thread safety: const calls are safe.
 template <class T>
 class NormalStencil {

@@ -120,7 +120,8 @@ class VertexPlacer {
   [[nodiscard]] double share_of(bool upper_inside, double lower, double upper) const {
     const double outer = upper_inside ? lower : upper;
     const double inner = upper_inside ? upper : lower;
-    const double mu = placement_.position(outer, inner);
+    double mu = 0.0;
+    placement_.place({&outer, &inner, &mu, 1});
     return upper_inside ? mu : 1.0 - mu;
   }
 

@@ -76,13 +76,8 @@ class RowPlacer {
       }
       const std::uint64_t inside = nodes.row(j, k)[w];
       if (is_plain_row && (word.any() & ~NodeBits::range(w, plain_from, dims[0] - 1)) == 0) {
-        if (solves_windows_) {
-          vertex = queue_word(word, {64 * w, j, k}, inside, vertex);
-          continue;
-        }
-        for_each_edge(word, [&](int bit, std::size_t axis) {
-          place_own({64 * w + bit, j, k}, axis, (inside >> bit & 1) == 0, bit, row, vertex++);
-        });
+        vertex = solves_windows_ ? queue_word(word, {64 * w, j, k}, inside, vertex)
+                                 : place_word(word, {64 * w, j, k}, inside, row, vertex);
         continue;
       }
       for_each_edge(word, [&](int bit, std::size_t axis) {
@@ -91,7 +86,7 @@ class RowPlacer {
                          (axis != 1 && ends_y) || (axis != 2 && ends_z);
         const bool upper_inside = (inside >> bit & 1) == 0;
         if (own_along[axis] && node[0] >= 1 && node[0] + (axis == 0 ? 1 : 0) <= dims[0]) {
-          place_own(node, axis, upper_inside, bit, row, vertex++);
+          place_own({node, axis, bit, upper_inside}, row, vertex++);
           return;
         }
         DualEdge edge{node, node, axis, upper_inside};
@@ -192,21 +187,62 @@ class RowPlacer {
     return vertex;
   }
 
-  // An edge between cells of the block; `row` is that of its lower cell.
-  void place_own(const Index3& node, std::size_t axis, bool upper_inside, int bit, const T* row,
-                 std::size_t vertex) {
+  // An edge between cells of the block from the node at a bit of the word entered last.
+  struct OwnEdge {
+    Index3 node;
+    std::size_t axis;
+    int bit;
+    bool upper_inside;
+  };
+
+  // As queue_word(), by the fractions of the cells; `row` is that of the lower ones.
+  std::size_t place_word(const EdgeWord& word, const Index3& first, std::uint64_t inside,
+                         const T* row, std::size_t vertex) {
+    OwnEdge edges[kMostEdges];
+    double outer[kMostEdges];
+    double inner[kMostEdges];
+    double position[kMostEdges];
+    const Index3& strides = grid_.field().view.strides;
+    const T* const cells = row + (first[0] - 1) * strides[0];
+    int count = 0;
+    for_each_edge(word, [&](int bit, std::size_t axis) {
+      const T* const cell = cells + bit * strides[0];
+      const double lower = fraction_of(*cell);
+      const double upper = fraction_of(cell[strides[axis]]);
+      const bool upper_inside = (inside >> bit & 1) == 0;
+      edges[count] = {{first[0] + bit, first[1], first[2]}, axis, bit, upper_inside};
+      outer[count] = upper_inside ? lower : upper;
+      inner[count++] = upper_inside ? upper : lower;
+    });
+    placer_.placement().place({outer, inner, position, count});
+    for (int n = 0; n < count; ++n) {
+      const double mu = position[n];
+      write_own(edges[n], vertex++, placer_.cleared(edges[n].upper_inside ? mu : 1.0 - mu));
+    }
+    return vertex;
+  }
+
+  // `row` is that of the lower cell.
+  void place_own(const OwnEdge& edge, const T* row, std::size_t vertex) {
     if (solves_windows_) {
-      queue_.add(node, axis, upper_inside, vertex, lower_plane(bit), upper_plane(axis, bit));
+      queue_.add(edge.node, edge.axis, edge.upper_inside, vertex, lower_plane(edge.bit),
+                 upper_plane(edge.axis, edge.bit));
       return;
     }
     const Index3& strides = grid_.field().view.strides;
-    const T* const cell = row + (node[0] - 1) * strides[0];
-    const double share = placer_.cleared(
-        placer_.share_of(upper_inside, fraction_of(*cell), fraction_of(cell[strides[axis]])));
-    writer_.write(vertex, node, axis, placer_.position_between_cells(node, axis, share));
+    const T* const cell = row + (edge.node[0] - 1) * strides[0];
+    write_own(edge, vertex,
+              placer_.cleared(placer_.share_of(edge.upper_inside, fraction_of(*cell),
+                                               fraction_of(cell[strides[edge.axis]]))));
+  }
+
+  void write_own(const OwnEdge& edge, std::size_t vertex, double share) {
+    writer_.write(vertex, edge.node, edge.axis,
+                  placer_.position_between_cells(edge.node, edge.axis, share));
     if (writer_.with_normals()) {
-      writer_.write_normal(vertex, placer_.normal(axis, upper_inside, lower_plane(bit),
-                                                  upper_plane(axis, bit), share));
+      writer_.write_normal(vertex,
+                           placer_.normal(edge.axis, edge.upper_inside, lower_plane(edge.bit),
+                                          upper_plane(edge.axis, edge.bit), share));
     }
   }
 
@@ -218,6 +254,8 @@ class RowPlacer {
     }
     return bit < 63 ? (&lower_plane(bit))[1] : (*planes_)[0].first_of_next();
   }
+
+  static constexpr int kMostEdges = 3 * 64;  // that start at the nodes of a word
 
   const VertexPlacer& placer_;
   const DualGrid& grid_;
