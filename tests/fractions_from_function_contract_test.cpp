@@ -141,3 +141,16 @@ TEST_CASE("progress comes from the calling thread and can cancel") {
     CHECK(code_of(grid, f, options) == ErrorCode::cancelled);
   }
 }
+
+TEST_CASE("fractions_from_function: cells are counted as bisected where there is a kink, only") {
+  const Grid grid = cube_grid(8, 1.0);
+  const auto plane = batch_of([](const Vec3& p) { return p[2] + 0.3 * p[0] - 0.31; });
+  const auto smooth = fractions_from_function(grid, plane).report;
+  CHECK(smooth.interfacial_cells >= 64);
+  CHECK(smooth.subdivided_cells == 0);
+  const auto roof =
+      batch_of([](const Vec3& p) { return std::max(p[2] - 0.31, p[2] + p[0] - 0.33); });
+  const auto kinked = fractions_from_function(grid, roof).report;
+  CHECK(kinked.subdivided_cells > 0);
+  CHECK(kinked.subdivided_cells <= 16);
+}

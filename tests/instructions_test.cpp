@@ -3,9 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <string>
 #include <vector>
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#include <unistd.h>
+#endif
 
 #include "difmesh/cell_planes.hpp"
 #include "difmesh/reconstruct.hpp"
@@ -86,10 +92,9 @@ OwnedField waves(const Index3& dims) {
   return field;
 }
 
-// A wavy film across the domain: all of it in a few layers of cells across the axis.
-OwnedField film(const Index3& dims, std::size_t axis) {
+// A wavy film across the domain: all of it in a few layers of cells across the axis, about `middle`.
+OwnedField film(const Index3& dims, std::size_t axis, double middle) {
   OwnedField field(dims);
-  const double middle = 0.5 * static_cast<double>(dims[axis]);
   for (std::int64_t k = 0; k < dims[2]; ++k) {
     for (std::int64_t j = 0; j < dims[1]; ++j) {
       for (std::int64_t i = 0; i < dims[0]; ++i) {
@@ -115,8 +120,8 @@ std::vector<Case> cases() {
           {"waves", waves({131, 15, 16})},
           {"noise", test::white_noise({33, 19, 12}, 5)},
           {"noise of halves", test::half_noise({66, 9, 8}, 6)},
-          {"lying film", film({35, 27, 11}, 2)},
-          {"standing film", film({35, 11, 27}, 1)},
+          {"lying film", film({35, 27, 11}, 2, 5.5)},
+          {"standing film", film({35, 11, 27}, 1, 5.5)},
           {"thin", test::white_noise({40, 1, 3}, 7)}};
 }
 
@@ -226,3 +231,68 @@ TEST_CASE("instruction sets: cell_planes gives the same bits from each") {
     }
   }
 }
+
+#if defined(__linux__)
+namespace {
+
+// Memory that ends where no more may be read.
+class GuardedMemory {
+ public:
+  explicit GuardedMemory(std::size_t bytes) {
+    const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    size_ = (bytes + page - 1) / page * page + page;
+    base_ = mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    REQUIRE(base_ != MAP_FAILED);
+    end_ = static_cast<char*>(base_) + size_ - page;
+    REQUIRE(mprotect(end_, page, PROT_NONE) == 0);
+  }
+  GuardedMemory(const GuardedMemory&) = delete;
+  GuardedMemory& operator=(const GuardedMemory&) = delete;
+  ~GuardedMemory() { munmap(base_, size_); }
+
+  [[nodiscard]] char* last(std::size_t bytes) const { return end_ - bytes; }
+
+ private:
+  std::size_t size_ = 0;
+  void* base_ = nullptr;
+  char* end_ = nullptr;
+};
+
+template <class T>
+void check_reads_within(const OwnedField& field) {
+  const std::vector<T> values = converted<T>(field);
+  const std::size_t bytes = values.size() * sizeof(T);
+  const GuardedMemory memory(bytes);
+  std::memcpy(memory.last(bytes), values.data(), bytes);
+  const Grid grid{field.dims, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}};
+  const auto in_vector = FieldView::x_fastest(values.data(), grid.dims);
+  const auto at_end =
+      FieldView::x_fastest(reinterpret_cast<const T*>(memory.last(bytes)), grid.dims);
+  Options options;
+  options.vertex_normals = true;
+  CHECK(same_bits(reconstruct(at_end, grid, options).mesh,
+                  reconstruct(in_vector, grid, options).mesh));
+}
+
+}  // namespace
+
+TEST_CASE("kernels: read nothing beyond the field") {
+  const InstructionsGuard guard;
+  for (const Instructions set : instruction_sets()) {
+    detail::use_instructions(set);
+    // Films whose columns end with the field, shorter and longer along x than across.
+    for (const Index3& dims : {Index3{19, 40, 11}, Index3{40, 19, 11}, Index3{11, 11, 11}}) {
+      for (const std::size_t axis : {0U, 1U, 2U}) {
+        const OwnedField field = film(dims, axis, static_cast<double>(dims[axis]) - 4.5);
+        check_reads_within<float>(field);
+        check_reads_within<double>(field);
+        check_reads_within<std::uint8_t>(field);
+        check_reads_within<std::uint16_t>(field);
+      }
+    }
+    const OwnedField noise = test::white_noise({23, 31, 12}, 3);
+    check_reads_within<float>(noise);
+    check_reads_within<double>(noise);
+  }
+}
+#endif

@@ -116,6 +116,34 @@ TEST_CASE("mollify: a single full cell becomes the kernel, alike along all axes"
   CHECK(sum_of(result) == doctest::Approx(1.0).epsilon(1e-14));
 }
 
+TEST_CASE("mollify: rows that are skipped as uniform are those that are, in grids of any shape") {
+  // Few cells that are not empty in grids that are longer in y and longer in z.
+  for (const Index3& dims : {Index3{6, 5, 17}, Index3{6, 17, 5}}) {
+    OwnedField field(dims);
+    OwnedField swapped({dims[0], dims[2], dims[1]});
+    for (const Index3& cell : {Index3{1, 0, 3}, Index3{4, 3, 4}, Index3{2, 4, 1}}) {
+      const bool tall = dims[2] > dims[1];
+      const std::int64_t j = tall ? cell[1] : 3 * cell[1] + 2;
+      const std::int64_t k = tall ? 3 * cell[2] + 2 : cell[2];
+      field.at(cell[0], j, k) = 0.7;
+      swapped.at(cell[0], k, j) = 0.7;
+    }
+    const Array<double> one = mollify(field.view());
+    const Array<double> other = mollify(swapped.view());
+    double sum = 0.0;
+    for (std::int64_t n = 0; n < dims[0] * dims[1] * dims[2]; ++n) {
+      const std::int64_t i = n % dims[0];
+      const std::int64_t j = n / dims[0] % dims[1];
+      const std::int64_t k = n / dims[0] / dims[1];
+      const double here = one[static_cast<std::size_t>(n)];
+      const double there = other[static_cast<std::size_t>((j * dims[2] + k) * dims[0] + i)];
+      CHECK(std::abs(here - there) < 1e-15);
+      sum += here;
+    }
+    CHECK(sum > 2.0);
+  }
+}
+
 TEST_CASE("mollify: constants are kept to the bit") {
   const OwnedField field({7, 5, 6}, 0.3);
   for (const Side side : {Side::open, Side::mirror, Side::periodic}) {

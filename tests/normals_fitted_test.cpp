@@ -308,3 +308,38 @@ TEST_CASE("fitted normals: mirrors continue planes that stand at right angles to
     CHECK(at_mirrors > 4);
   }
 }
+
+TEST_CASE("fitted normals: cells without a surface have the normal of myc") {
+  OwnedField field = blob({20, 19, 18});
+  const Grid grid{field.dims, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}};
+  // Pure cells next to others, which give them a gradient.
+  std::vector<Index3> cells;
+  for (std::int64_t n = 0; n < grid.cell_count(); ++n) {
+    const Index3 cell{n % 20, n / 20 % 19, n / 20 / 19};
+    const double fraction = field.at(cell[0], cell[1], cell[2]);
+    if (fraction == 0.0 || fraction == 1.0) {
+      cells.push_back(cell);
+    }
+  }
+  const auto planes_by = [&](Normals normals) {
+    Options options;
+    options.normals = normals;
+    std::vector<CellPlane> planes(cells.size());
+    difmesh::cell_planes(field.view(), grid, cells, options, planes);
+    return planes;
+  };
+  const std::vector<CellPlane> myc = planes_by(Normals::myc);
+  for (const Normals normals : {Normals::elvira, Normals::lvira}) {
+    const std::vector<CellPlane> fitted = planes_by(normals);
+    int with_normal[2] = {};
+    for (std::size_t n = 0; n < cells.size(); ++n) {
+      REQUIRE(fitted[n].source == myc[n].source);
+      REQUIRE(fitted[n].plane.normal == myc[n].plane.normal);
+      if (myc[n].source != NormalSource::none) {
+        ++with_normal[static_cast<int>(field.at(cells[n][0], cells[n][1], cells[n][2]))];
+      }
+    }
+    CHECK(with_normal[0] > 100);
+    CHECK(with_normal[1] > 100);
+  }
+}
