@@ -31,11 +31,6 @@ class DualGrid {
   [[nodiscard]] const NodeBits& nodes() const { return nodes_; }
   [[nodiscard]] const PlaneTable& planes() const { return planes_; }
 
-  /// True if the node is a cell of the block itself: no side has to be thought of.
-  [[nodiscard]] bool is_own(const Index3& node) const {
-    return node[0] >= 1 && node[1] >= 1 && node[2] >= 1 && node[0] <= field_->block.dims[0] &&
-           node[1] <= field_->block.dims[1] && node[2] <= field_->block.dims[2];
-  }
   [[nodiscard]] NodeOrigin origin(const Index3& node) const;
   [[nodiscard]] double coordinate(std::size_t axis, std::int64_t local) const {
     return coordinates_[axis][static_cast<std::size_t>(local)];
