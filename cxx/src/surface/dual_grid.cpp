@@ -124,7 +124,7 @@ double DualGrid::cell_fraction(const Index3& node, const NodeOrigin& origin) con
     const std::int64_t local = origin.constant ? node[axis] : origin.cell[axis];
     resolved[axis] = field_->axes[axis].resolve(local - 1 + field_->block.offset[axis]);
     if (resolved[axis] == kMissing) {
-      resolved[axis] = local == 0 ? 0 : field_->grid.dims[axis] - 1;
+      resolved[axis] = 0;  // any: what is beyond the side of another axis has the say
     }
   }
   return field_->fraction(resolved);
