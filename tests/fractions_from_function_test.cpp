@@ -422,3 +422,20 @@ TEST_CASE("mirrored and swapped axes give the same fractions") {
     CHECK(std::abs(complement.fractions[index] + plain.fractions[index] - 1.0) < 2e-10);
   });
 }
+
+TEST_CASE("films between the samples of cells are found across any axis") {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Grid grid{{6, 7, 8}, {-1.0, -0.9, -1.1}, {0.25, 0.3, 0.2}};
+    // A tenth of a cell to each side of what lies between a face and the middle of a cell.
+    const double middle = grid.origin[axis] + 3.25 * grid.spacing[axis];
+    const double half = 0.1 * grid.spacing[axis];
+    const auto film = batch_of([=](const Vec3& p) {
+      const double away = p[axis] - middle;
+      return away * away - half * half;
+    });
+    const auto result = fractions_from_function(grid, film);
+    for_cells(grid, [&](const Index3& cell, std::size_t index) {
+      CHECK(std::abs(result.fractions[index] - (cell[axis] == 3 ? 0.2 : 0.0)) < 1e-9);
+    });
+  }
+}
