@@ -7,7 +7,6 @@
 #include <cstring>
 #include <limits>
 #include <random>
-#include <regex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -104,13 +103,12 @@ struct PublishedMyc {
 };
 
 /// The nine columns about a cell along the axis that a normal points along, each read as a word of
-/// its cells from the material's end on: F full, I interfacial, E empty.
+/// its cells from the material's end on: a full, b interfacial, c empty.
 struct WordsOfColumns {
   bool all_consistent = true;
   Vec3 normal{0.0, 0.0, 0.0};  ///< from the sums of the columns
 
   WordsOfColumns(test::OwnedField& field, const Index3& cell, const Vec3& towards) {
-    static const std::regex consistent("F+I*E+");
     std::size_t axis = 0;
     for (std::size_t t = 1; t < 3; ++t) {
       axis = std::abs(towards[t]) > std::abs(towards[axis]) ? t : axis;
@@ -126,9 +124,10 @@ struct WordsOfColumns {
         at[(axis + 2) % 3] += n / 3 - 1;
         const double fraction = field.at(at[0], at[1], at[2]);
         height[n % 3][n / 3] += fraction;
-        word += fraction >= 1 - 1e-6 ? 'F' : (fraction <= 1e-6 ? 'E' : 'I');
+        word += fraction >= 1 - 1e-6 ? 'a' : (fraction <= 1e-6 ? 'c' : 'b');
       }
-      all_consistent = all_consistent && std::regex_match(word, consistent);
+      all_consistent = all_consistent && word.front() == 'a' && word.back() == 'c' &&
+                       std::is_sorted(word.begin(), word.end());
     }
     normal[axis] = static_cast<double>(outward);
     normal[(axis + 1) % 3] = (height[0][1] - height[2][1]) / 2;
