@@ -30,6 +30,9 @@ FieldFile read_nrrd(const std::filesystem::path& path, const ReadFieldOptions& o
 
 void write_nrrd(AtomicFile& file, const FieldView& field, const std::optional<Grid>& grid,
                 const WriteFieldOptions& options) {
+  if (grid) {
+    require_uniform(*grid, "NRRD");
+  }
   constexpr std::array<std::string_view, 4> names{"float", "double", "uint8", "uint16"};
   std::string header =
       "NRRD0004\n# Cell-centred field; the space origin is the centre of the first "

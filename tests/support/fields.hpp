@@ -25,6 +25,9 @@ struct OwnedField {
   [[nodiscard]] double& at(std::int64_t i, std::int64_t j, std::int64_t k) {
     return values[static_cast<std::size_t>((k * dims[1] + j) * dims[0] + i)];
   }
+  [[nodiscard]] double at_cell(const Index3& cell) const {
+    return values[static_cast<std::size_t>((cell[2] * dims[1] + cell[1]) * dims[0] + cell[0])];
+  }
   [[nodiscard]] FieldView view() const { return FieldView::x_fastest(values.data(), dims); }
 };
 

@@ -18,7 +18,7 @@ enum class ErrorCode : int {
   file_missing = 40,      ///< an input file cannot be opened
   file_format = 41,       ///< an input file is malformed, truncated or of a kind not supported
   file_write = 42,        ///< an output file cannot be written; nothing is left behind
-  unsupported = 50,       ///< this build lacks what was asked for
+  unsupported = 50,       ///< this build lacks what was asked for, or it cannot be had of this grid
 };
 
 /// Thrown by every function of the library that can fail. `what()` names the cell, file or

@@ -39,12 +39,12 @@ void check_cells(const Grid& grid, std::span<const Index3> cells) {
 }
 
 // From a plane in the unit cell.
-CellPlane in_space(const Grid& grid, const Vec3& m, double a, NormalSource source) {
+CellPlane in_space(const Vec3& size, const Vec3& m, double a, NormalSource source) {
   CellPlane result;
   result.source = source;
   Vec3 normal;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    normal[axis] = m[axis] / grid.spacing[axis];
+    normal[axis] = m[axis] / size[axis];
   }
   const double length = std::hypot(normal[0], normal[1], normal[2]);
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -96,8 +96,8 @@ class ListFitter {
         const NormalSource source = is_in(batch.from_heights)  ? NormalSource::height_function
                                     : is_in(batch.from_youngs) ? NormalSource::youngs
                                                                : NormalSource::centred_columns;
-        *plane_[n] = in_space(plan_.field.grid, {batch.m[0][n], batch.m[1][n], batch.m[2][n]},
-                              batch.a[n], source);
+        *plane_[n] = in_space(plan_.field.grid.spacing,
+                              {batch.m[0][n], batch.m[1][n], batch.m[2][n]}, batch.a[n], source);
       }
     }
     count_ = 0;
@@ -111,7 +111,7 @@ class ListFitter {
     }
     const double a =
         detail::cube_offset(unit.m[0], unit.m[1], unit.m[2], plan_.field.fraction(cell));
-    return in_space(plan_.field.grid, unit.m, a, unit.source);
+    return in_space(plan_.field.cell_size(cell), unit.m, a, unit.source);
   }
 
   const detail::FitterPlan<T>& plan_;

@@ -207,6 +207,20 @@ void classify_row(const BlockField& field, const RowClassifier<T>& classifier, c
   statistics.note_bad(ghosts.first_bad);
 }
 
+// Of the fractions in the block's part of a row, on stretched axes.
+template <class T>
+double row_volume(const BlockField& field, const Index3& start) {
+  const FieldView& view = field.view;
+  const T* const row = static_cast<const T*>(view.data) + start[1] * view.strides[1] +
+                       start[2] * view.strides[2] + field.block.ghost_low[0] * view.strides[0];
+  double length = 0.0;
+  for (std::int64_t i = 0; i < field.block.dims[0]; ++i) {
+    length += fraction_of(row[i * view.strides[0]]) * field.width(0, i + field.block.offset[0]);
+  }
+  return length * field.width(1, start[1] + field.axes[1].low) *
+         field.width(2, start[2] + field.axes[2].low);
+}
+
 [[noreturn]] void throw_bad_cell(const BlockField& field, std::int64_t number, double bound) {
   const Index3 local{number % field.view.dims[0], number / field.view.dims[0] % field.view.dims[1],
                      number / field.view.dims[0] / field.view.dims[1]};
@@ -365,9 +379,13 @@ ClassifiedNodes classify(const BlockField& field, const FieldLimits& limits, dou
       const std::int64_t k = start[2] - field.block.ghost_low[2];
       const bool in_block = j >= 0 && j < field.block.dims[1] && k >= 0 && k < field.block.dims[2];
       const std::int64_t interfacial_before = statistics.interfacial;
+      const double sum_before = statistics.sum;
       classify_row<T>(field, classifier, start, in_block ? &nodes : nullptr, statistics);
       if (!in_block) {
         return;
+      }
+      if (field.is_stretched) {
+        statistics.sum = sum_before + row_volume<T>(field, start);
       }
       if (limits.layer_planes.is_limited() && limits.layer_planes.has_row(j, k)) {
         limits.layer_planes.add(statistics.interfacial - interfacial_before);
@@ -408,7 +426,8 @@ ClassifiedNodes classify(const BlockField& field, const FieldLimits& limits, dou
   for (const double sum : sums) {
     facts.fractions += sum;
   }
-  report.fraction_volume = facts.fractions * field.grid.cell_volume();
+  report.fraction_volume =
+      field.is_stretched ? facts.fractions : facts.fractions * field.grid.cell_volume();
   return result;
 }
 

@@ -34,7 +34,8 @@ struct FieldLimits {
 /// What a pass over a field finds, or those over its parts.
 struct FieldFacts {
   Report report;
-  double fractions = 0.0;  ///< sum of all; the report's volume is made of it
+  /// Sum of all, on stretched axes by their cells' volumes; the report's volume is made of it.
+  double fractions = 0.0;
 };
 
 /// Node bits of the block, with the nodes beyond the sides of the domain taken from the cells they

@@ -1,5 +1,6 @@
 #include "grid/block_field.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -78,6 +79,31 @@ AxisCells check_axis(std::size_t axis, const Block& block, const Grid& grid,
   return {count, offset - low, offset + dims + high, {boundary[2 * axis], boundary[2 * axis + 1]}};
 }
 
+// A table whose faces are uniform but for rounding stands for a uniform axis.
+Grid with_uniform_axes(const Grid& grid) {
+  constexpr double kRounding = 1e-14;
+  Grid result = grid;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::vector<double>& faces = grid.faces[axis];
+    if (faces.empty()) {
+      continue;
+    }
+    const double spacing = (faces.back() - faces.front()) / static_cast<double>(grid.dims[axis]);
+    const double largest = std::max(std::abs(faces.front()), std::abs(faces.back()));
+    bool is_uniform = true;
+    for (std::size_t n = 0; n < faces.size(); ++n) {
+      const double at = faces.front() + static_cast<double>(n) * spacing;
+      is_uniform = is_uniform && std::abs(faces[n] - at) <= kRounding * (largest + spacing);
+    }
+    if (is_uniform) {
+      result.origin[axis] = faces.front();
+      result.spacing[axis] = spacing;
+      result.faces[axis].clear();
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 double BlockField::fraction(const Index3& resolved) const {
@@ -114,13 +140,30 @@ void check_block(const Block& block, const Grid& grid, const Options& options) {
   }
 }
 
+double BlockField::width(std::size_t axis, std::int64_t index) const {
+  const std::int64_t count = axes[axis].count;
+  while (index < 0 || index >= count) {
+    const bool below = index < 0;
+    const Side side = boundary[2 * axis + (below ? 0 : 1)];
+    if (side == Side::periodic) {
+      index += below ? count : -count;
+    } else if (side == Side::mirror) {
+      index = below ? -1 - index : 2 * count - 1 - index;
+    } else {
+      break;
+    }
+  }
+  return grid.width(axis, index);
+}
+
 BlockField make_block_field(const FieldView& field, const Block& block, const Grid& grid,
                             const Options& options) {
   validate(grid);
   check_options(options);
   check_view(field);
   BlockField result;
-  result.grid = grid;
+  result.grid = with_uniform_axes(grid);
+  result.is_stretched = !result.grid.is_uniform();
   result.block = block;
   result.boundary = options.boundary;
   result.view = field;

@@ -73,6 +73,15 @@ struct BlockField {
   FieldView view;  ///< as given: its cell 0 is the first in memory
   std::array<AxisCells, 3> axes;
   double purity_tolerance = 0.0;
+  bool is_stretched = false;  ///< some axis of the grid is not uniform
+
+  /// Sizes of a cell by its global index, which may be beyond the sides: behind mirrors and periodic
+  /// sides that of the cell that stands there, elsewhere that of the nearest one.
+  [[nodiscard]] Vec3 cell_size(const Index3& cell) const {
+    return is_stretched ? Vec3{width(0, cell[0]), width(1, cell[1]), width(2, cell[2])}
+                        : grid.spacing;
+  }
+  [[nodiscard]] double width(std::size_t axis, std::int64_t index) const;
 
   [[nodiscard]] Side side(int axis, int high) const {
     return boundary[static_cast<std::size_t>(2 * axis + high)];

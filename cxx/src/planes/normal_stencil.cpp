@@ -8,6 +8,7 @@
 #include "planes/fitted_normals.hpp"
 #include "planes/normal_math.hpp"
 #include "planes/plane_fit.hpp"
+#include "planes/stretched_normal.hpp"
 
 namespace difmesh {
 namespace detail {
@@ -41,6 +42,9 @@ NormalStencil<T>::NormalStencil(const BlockField& field, Normals normals)
 
 template <class T>
 UnitNormal NormalStencil<T>::operator()(const Index3& cell) const {
+  if (field_.is_stretched) {
+    return stretched_normal(field_, normals_, cell);
+  }
   if (is_fitted(normals_)) {
     return fitted_normal(field_, normals_, cell, NormalStencil(field_, Normals::myc)(cell));
   }

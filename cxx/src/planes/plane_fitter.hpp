@@ -78,7 +78,7 @@ struct FitterPlan {
   FitterPlan(const BlockField& of, Normals normals)
       : field(of),
         stencil(of, normals),
-        has_kernel(!is_fitted(normals) && of.view.strides[0] == 1),
+        has_kernel(!is_fitted(normals) && of.view.strides[0] == 1 && !of.is_stretched),
         task{{of.view.strides[0], of.view.strides[1], of.view.strides[2]},
              normals != Normals::youngs,
              normals == Normals::height_function,

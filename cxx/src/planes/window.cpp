@@ -12,6 +12,56 @@ namespace {
 
 using baseline::filling;
 
+// A plane and the size of its cell along the edge, where the cells differ in it; see window.hpp.
+struct SizedPlane {
+  Plane plane;
+  double size;  // those of both cells add up to 2
+};
+
+// Of the mean size of the cells, what is filled less a half, and its derivative.
+baseline::Filling<double> filling(const SizedPlane& outer, const SizedPlane& inner, double mu) {
+  const double in_outer = baseline::slab(outer.plane, mu * 0.5, 1.0 - mu) - 0.5 * (1.0 - mu);
+  const double in_inner = baseline::slab(inner.plane, (mu - 1.0) * 0.5, mu) - 0.5 * mu;
+  return {outer.size * in_outer + inner.size * in_inner,
+          outer.size * (0.5 - baseline::section(outer.plane, mu - 0.5)) +
+              inner.size * (baseline::section(inner.plane, mu - 0.5) - 0.5)};
+}
+
+double plane_crossing(const SizedPlane& outer, const SizedPlane& inner) {
+  return baseline::plane_crossing(outer.plane, inner.plane);
+}
+double plane_crossing(const Plane& outer, const Plane& inner) {
+  return baseline::plane_crossing(outer, inner);
+}
+
+// Both planes of an edge as what the solvers below take.
+template <class P>
+struct Both;
+template <>
+struct Both<Plane> {
+  Plane outer;
+  Plane inner;
+  Both(const EdgePlane& at_outer, const EdgePlane& at_inner)
+      : outer(prepared(at_outer)), inner(prepared(at_inner)) {}
+  [[nodiscard]] static double window_size(double) { return 1.0; }
+  [[nodiscard]] static double outer_size() { return 1.0; }
+  [[nodiscard]] static double inner_size() { return 1.0; }
+};
+template <>
+struct Both<SizedPlane> {
+  SizedPlane outer;
+  SizedPlane inner;
+  Both(const EdgePlane& at_outer, const EdgePlane& at_inner)
+      : outer{prepared(at_outer), 2.0 * (at_outer.size / (at_outer.size + at_inner.size))},
+        inner{prepared(at_inner), 2.0 * (at_inner.size / (at_outer.size + at_inner.size))} {}
+  // Of the window, over the mean of the cells' sizes, which is the length of the edge.
+  [[nodiscard]] double window_size(double mu) const {
+    return (1.0 - mu) * outer.size + mu * inner.size;
+  }
+  [[nodiscard]] double outer_size() const { return outer.size; }
+  [[nodiscard]] double inner_size() const { return inner.size; }
+};
+
 // Shares and slopes below this are rounding.
 constexpr double kRounding = 1e-13;
 
@@ -42,7 +92,8 @@ struct Turns {
   void add(double mu) { at[count++] = mu; }
 };
 
-Turns turning_points(const Plane& outer, const Plane& inner, const std::array<double, 10>& ends) {
+template <class P>
+Turns turning_points(const P& outer, const P& inner, const std::array<double, 10>& ends) {
   Turns turns;
   for (std::size_t n = 1; n < ends.size(); ++n) {
     const double low = ends[n - 1];
@@ -79,22 +130,24 @@ double away(double mu, double low, double high) {
 }
 
 // Algorithm 1 of E19: window, fraction, blended normal, plane, slide, until it settles.
+template <class P>
 double iterate(const EdgePlane& outer, const EdgePlane& inner, const Algorithm1Start& start) {
   constexpr int kMost = 200;
-  const Plane outer_plane = prepared(outer);
-  const Plane inner_plane = prepared(inner);
+  const Both<P> planes(outer, inner);
   double mu = start.mu;
   for (int step = 0; step < kMost; ++step) {
-    const double share = filling(outer_plane, inner_plane, mu).excess + 0.5;
+    const double size = planes.window_size(mu);
+    const double share = filling(planes.outer, planes.inner, mu).excess / size + 0.5;
     const double w0 = (1.0 - mu) * start.outer_weight;
     const double w1 = mu * start.inner_weight;
-    const double along = w0 * outer.along + w1 * inner.along;
+    const double along = w0 * outer.along * (size / planes.outer_size()) +
+                         w1 * inner.along * (size / planes.inner_size());
     const double across0 = w0 * outer.across0 + w1 * inner.across0;
     const double across1 = w0 * outer.across1 + w1 * inner.across1;
     if (along == 0.0) {
       return mu;
     }
-    const double slide = cube_offset(along, across0, across1, share) / along;
+    const double slide = cube_offset(along, across0, across1, share) / along * size;
     const double next = std::clamp(mu + slide, 0.0, 1.0);
     if (std::abs(next - mu) < 1e-12) {
       return next;
@@ -112,21 +165,21 @@ struct Bracket {
   int roots = 0;
 };
 
+template <class P>
 Bracket examine(const EdgePlane& outer, const EdgePlane& inner, const Algorithm1Start& start) {
-  const Plane outer_plane = prepared(outer);
-  const Plane inner_plane = prepared(inner);
-  const Turns turns = turning_points(outer_plane, inner_plane, pieces(outer, inner));
+  const Both<P> planes(outer, inner);
+  const Turns turns = turning_points(planes.outer, planes.inner, pieces(outer, inner));
   Bracket bracket;
   double reached = -1.0;
   double distance = 2.0;
-  double before = filling(outer_plane, inner_plane, 0.0).excess;
+  double before = filling(planes.outer, planes.inner, 0.0).excess;
   for (std::size_t n = 1; n < turns.count; ++n) {
-    const double after = filling(outer_plane, inner_plane, turns.at[n]).excess;
+    const double after = filling(planes.outer, planes.inner, turns.at[n]).excess;
     bracket.non_monotone = bracket.non_monotone || after < before - kRounding;
     if (before < 0.0 && after >= 0.0) {
       ++bracket.roots;
       if (bracket.roots == 2) {
-        reached = iterate(outer, inner, start);
+        reached = iterate<P>(outer, inner, start);
         distance = away(reached, bracket.low, bracket.high);
       }
       if (bracket.roots == 1 || away(reached, turns.at[n - 1], turns.at[n]) < distance) {
@@ -140,10 +193,20 @@ Bracket examine(const EdgePlane& outer, const EdgePlane& inner, const Algorithm1
   return bracket;
 }
 
-WindowRoot newton(const Plane& outer, const Plane& inner, double low, double high) {
+template <class P>
+WindowRoot newton(const P& outer, const P& inner, double low, double high) {
   const baseline::NewtonRoot<double> root =
-      baseline::newton(outer, inner, low, high, baseline::plane_crossing(outer, inner));
+      baseline::newton(outer, inner, low, high, plane_crossing(outer, inner));
   return {root.mu, static_cast<int>(root.steps), false};
+}
+
+template <class P>
+WindowRoot solve(const EdgePlane& outer, const EdgePlane& inner, const Algorithm1Start& start) {
+  const Bracket bracket = examine<P>(outer, inner, start);
+  const Both<P> planes(outer, inner);
+  WindowRoot root = newton(planes.outer, planes.inner, bracket.low, bracket.high);
+  root.non_monotone = bracket.non_monotone;
+  return root;
 }
 
 }  // namespace
@@ -154,10 +217,12 @@ WindowRoot solve_monotone(const Plane& outer, const Plane& inner) {
 
 WindowRoot solve_examined(const EdgePlane& outer, const EdgePlane& inner,
                           const Algorithm1Start& start) {
-  const Bracket bracket = examine(outer, inner, start);
-  WindowRoot root = newton(prepared(outer), prepared(inner), bracket.low, bracket.high);
-  root.non_monotone = bracket.non_monotone;
-  return root;
+  return solve<Plane>(outer, inner, start);
+}
+
+WindowRoot solve_sized(const EdgePlane& outer, const EdgePlane& inner,
+                       const Algorithm1Start& start) {
+  return solve<SizedPlane>(outer, inner, start);
 }
 
 }  // namespace difmesh::detail::window

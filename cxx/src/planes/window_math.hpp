@@ -113,10 +113,9 @@ struct NewtonRoot {
 };
 
 /// Newton's method from `start`, kept within [low, high] by bisection.
-template <class R>
-[[gnu::always_inline]] inline NewtonRoot<R> newton(const WindowPlane<R>& outer,
-                                                   const WindowPlane<R>& inner, R low, R high,
-                                                   const R& start) {
+template <class R, class Plane>
+[[gnu::always_inline]] inline NewtonRoot<R> newton(const Plane& outer, const Plane& inner, R low,
+                                                   R high, const R& start) {
   constexpr int kMost = 100;
   const R zero = constant<R>(0.0);
   NewtonRoot<R> root{select((start > low) & (start < high), start, low + (high - low) * 0.5), zero};

@@ -256,6 +256,7 @@ class Smoother {
 void check(const Mesh& mesh, const Grid& grid, const ConstrainedSmoothingOptions& options) {
   constexpr int kMostSteps = 1000;
   validate(grid);
+  require_uniform(grid, "smooth_within_fractions");
   require_range(options.steps, 0, kMostSteps, "steps");
   require_range(options.tolerance, 1e-9, 0.5, "tolerance");
   require_range(options.clearance, 1e-13, 0.25, "clearance");

@@ -126,14 +126,13 @@ void LatticeWalk::evaluate_layers(std::int64_t first, std::int64_t last) {
 void LatticeWalk::evaluate_row(SampledFunction& f, std::int64_t j, std::int64_t k,
                                std::vector<Vec3>& points) {
   double* out = values_.data() + (values(j, k) - values_.data());
-  const double y = grid_.origin[1] + static_cast<double>(j) * grid_.spacing[1];
-  const double z = grid_.origin[2] + static_cast<double>(k) * grid_.spacing[2];
+  const double y = grid_.face(1, j);
+  const double z = grid_.face(2, k);
   for (std::int64_t i = 0; i <= nx_; i += kPointsPerBatch) {
     const std::int64_t count = std::min(kPointsPerBatch, nx_ + 1 - i);
     points.resize(static_cast<std::size_t>(count));
     for (std::int64_t p = 0; p < count; ++p) {
-      points[static_cast<std::size_t>(p)] = {
-          grid_.origin[0] + static_cast<double>(i + p) * grid_.spacing[0], y, z};
+      points[static_cast<std::size_t>(p)] = {grid_.face(0, i + p), y, z};
     }
     f.values(points, {out + i, static_cast<std::size_t>(count)});
   }

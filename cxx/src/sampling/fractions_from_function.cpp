@@ -56,11 +56,30 @@ void check(const Grid& grid, const FunctionBatch& f, const FractionsFromFunction
 double rounding_of(const Grid& grid) {
   double largest = 1.0;
   for (std::size_t a = 0; a < 3; ++a) {
-    const double high = grid.origin[a] + grid.spacing[a] * static_cast<double>(grid.dims[a]);
-    largest =
-        std::max(largest, std::max(std::abs(grid.origin[a]), std::abs(high)) / grid.spacing[a]);
+    const double high = grid.face(a, grid.dims[a]);
+    double width = grid.width(a, 0);
+    for (std::size_t n = 1; n < grid.faces[a].size(); ++n) {
+      width = std::min(width, grid.faces[a][n] - grid.faces[a][n - 1]);
+    }
+    largest = std::max(largest, std::max(std::abs(grid.face(a, 0)), std::abs(high)) / width);
   }
   return 8.0 * std::numeric_limits<double>::epsilon() * largest;
+}
+
+// On stretched axes.
+double volume_of(std::span<const double> fractions, const Grid& grid) {
+  double volume = 0.0;
+  std::size_t n = 0;
+  for (std::int64_t k = 0; k < grid.dims[2]; ++k) {
+    for (std::int64_t j = 0; j < grid.dims[1]; ++j) {
+      double length = 0.0;
+      for (std::int64_t i = 0; i < grid.dims[0]; ++i, ++n) {
+        length += fractions[n] * grid.width(0, i);
+      }
+      volume += length * grid.width(1, j) * grid.width(2, k);
+    }
+  }
+  return volume;
 }
 
 // What a portion of the candidates adds to the report.
@@ -94,16 +113,18 @@ class CandidateIntegration {
     detail::SampledFunction f(f_, options_.gradient, grid_);
     for (const CellCandidate& candidate : candidates) {
       Vec3 low;
+      Vec3 size;
       std::int64_t index = candidate.cell;
       for (std::size_t a = 0; a < 3; ++a) {
-        low[a] = grid_.origin[a] + static_cast<double>(index % grid_.dims[a]) * grid_.spacing[a];
+        low[a] = grid_.face(a, index % grid_.dims[a]);
+        size[a] = grid_.width(a, index % grid_.dims[a]);
         index /= grid_.dims[a];
       }
       CellQuadrature::Result result;
-      if (const auto known = known_ ? known_(low, grid_.spacing) : std::nullopt) {
+      if (const auto known = known_ ? known_(low, size) : std::nullopt) {
         result.fraction = *known;
       } else {
-        result = quadrature.integrate(f, low, grid_.spacing, candidate.corners);
+        result = quadrature.integrate(f, low, size, candidate.corners);
       }
       const double fraction = snap(result.fraction);
       fractions_[static_cast<std::size_t>(candidate.cell)] = fraction;
@@ -196,7 +217,9 @@ FractionsFromFunction detail::fractions_with_known_cells(
   phases.finish();
 
   fill_report(result.report, screening, tallies);
-  result.report.fraction_volume *= grid.cell_volume();
+  result.report.fraction_volume = grid.is_uniform()
+                                      ? result.report.fraction_volume * grid.cell_volume()
+                                      : volume_of(result.fractions, grid);
   result.report.seconds.quadrature = phase.lap();
   result.report.seconds.total = whole.lap();
   return result;

@@ -287,6 +287,7 @@ FractionsFromMesh fractions_from_mesh(const Grid& grid, std::span<const Vec3> po
   Stopwatch phase;
   check_options(options);
   validate(grid);
+  require_uniform(grid, "fractions_from_mesh");
   check_sizes(grid, positions, triangles);
   Workers workers(options.threads);
   Phases phases(workers, options.progress);

@@ -42,7 +42,11 @@ void SampledFunction::gradients(std::span<const Vec3> points, std::span<Vec3> ou
 void SampledFunction::fail(const char* what, const Vec3& point, double value) const {
   std::string cell;
   for (std::size_t a = 0; a < 3; ++a) {
-    const double index = std::floor((point[a] - grid_.origin[a]) / grid_.spacing[a]);
+    const std::vector<double>& faces = grid_.faces[a];
+    const double index =
+        faces.empty() ? std::floor((point[a] - grid_.origin[a]) / grid_.spacing[a])
+                      : static_cast<double>(std::upper_bound(faces.begin(), faces.end(), point[a]) -
+                                            faces.begin() - 1);
     const auto last = static_cast<double>(grid_.dims[a] - 1);
     cell += (a == 0 ? "" : ", ") +
             std::to_string(static_cast<std::int64_t>(std::clamp(index, 0.0, last)));

@@ -10,9 +10,29 @@ namespace {
 // film on the face: solvers leave such smears, and a plane fitted to them is worth nothing.
 constexpr double kFilm = 0.01;
 
+double stretched_coordinate(const BlockField& field, std::size_t axis, std::int64_t index) {
+  const std::vector<double>& faces = field.grid.faces[axis];
+  const std::int64_t count = field.grid.dims[axis];
+  Index3 cell{0, 0, 0};
+  if (index < 0 || index >= count) {
+    const Side side = field.boundary[2 * axis + (index < 0 ? 0 : 1)];
+    if (side == Side::open || side == Side::mirror) {
+      return index < 0 ? faces.front() : faces.back();
+    }
+    if (side == Side::periodic) {
+      return field.grid.cell_centre(cell)[axis] + (faces.back() - faces.front());
+    }
+  }
+  cell[axis] = index;
+  return field.grid.cell_centre(cell)[axis];
+}
+
 // Domain faces, to the bit, for nodes on open and mirror sides; else cell centres or their
 // continuation.
 double node_coordinate(const BlockField& field, std::size_t axis, std::int64_t index) {
+  if (!field.grid.is_uniform(axis)) {
+    return stretched_coordinate(field, axis, index);
+  }
   const double origin = field.grid.origin[axis];
   const double spacing = field.grid.spacing[axis];
   const std::int64_t count = field.grid.dims[axis];

@@ -72,7 +72,9 @@ void run_phases(const BlockField& field, const Options& options, const char*& no
 
 // Half-way up the grid.
 PartSums::PartSums(const Grid& grid)
-    : volume(grid.origin[2] + grid.spacing[2] * (0.5 * static_cast<double>(grid.dims[2]))) {}
+    : volume(grid.is_uniform(2)
+                 ? grid.origin[2] + grid.spacing[2] * (0.5 * static_cast<double>(grid.dims[2]))
+                 : 0.5 * (grid.faces[2].front() + grid.faces[2].back())) {}
 
 Report PartSums::finish() {
   facts.report.enclosed_volume = facts.report.closed ? volume.value() : 0.0;

@@ -23,7 +23,7 @@ namespace difmesh::detail {
   }
   const bool all_seen = options.purity_tolerance * largest_value(value_type_of(type)) < 1.0;
   const auto interfacial = static_cast<double>(report.interfacial_cells);
-  return !all_seen ||
+  return !all_seen || !grid.is_uniform() ||
          (interfacial > 0.0 && report.fraction_volume <= interfacial * grid.cell_volume());
 }
 

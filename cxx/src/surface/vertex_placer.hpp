@@ -46,6 +46,13 @@ struct DualEdge {
   bool upper_inside = false;
 };
 
+/// The edge from a node along an axis.
+[[nodiscard]] inline DualEdge edge_from(const Index3& lower, std::size_t axis, bool upper_inside) {
+  DualEdge edge{lower, lower, axis, upper_inside};
+  ++edge.upper[axis];
+  return edge;
+}
+
 /// Places the vertices of one kind of options on one dual grid. Thread safety: const calls are
 /// safe.
 class VertexPlacer {
@@ -71,46 +78,60 @@ class VertexPlacer {
     return within(share, options_.clearance, 1.0 - options_.clearance);
   }
 
+  // By the window over the planes of two cells: the share of the way, not cleared.
+  [[nodiscard]] double place_by_window(const DualEdge& edge, const UnitPlane& lower,
+                                       const UnitPlane& upper, EdgeCounts& counts) const {
+    EdgePlane outer = oriented(edge, edge.upper_inside ? lower : upper);
+    EdgePlane inner = oriented(edge, edge.upper_inside ? upper : lower);
+    if (grid_.field().is_stretched) {
+      outer.size = cell_size(edge.upper_inside ? edge.lower : edge.upper)[edge.axis];
+      inner.size = cell_size(edge.upper_inside ? edge.upper : edge.lower)[edge.axis];
+    }
+    const WindowRoot root =
+        solve_window(outer, inner, [&] { return algorithm1_start(edge, lower, upper); });
+    counts.add(root);
+    return edge.upper_inside ? root.mu : 1.0 - root.mu;
+  }
+
   // The vertex's share of the way from the lower node to the upper one.
   double place(const DualEdge& edge, EdgeCounts& counts) const {
     return cleared(placement_.by_planes ? place_at_side(edge, counts) : place_by_fractions(edge));
   }
 
   [[nodiscard]] Vec3 position(const DualEdge& edge, double share) const {
-    if (!is_half_edge(edge)) {
-      return position_between_cells(edge.lower, edge.axis, share);
-    }
-    const double low = grid_.coordinate(edge.axis, edge.lower[edge.axis]);
-    const double high = grid_.coordinate(edge.axis, edge.upper[edge.axis]);
-    return at(edge.lower, edge.axis, low + share * (high - low));
+    return is_half_edge(edge) ? position_between_nodes(edge.lower, edge.axis, share)
+                              : position_between_cells(edge.lower, edge.axis, share);
   }
 
   // The same for edges from a cell's centre to another's.
   [[nodiscard]] Vec3 position_between_cells(const Index3& lower, std::size_t axis,
                                             double share) const {
     const Grid& grid = grid_.field().grid;
+    if (!grid.is_uniform(axis)) {
+      return position_between_nodes(lower, axis, share);
+    }
     const double index = static_cast<double>(lower[axis]) + first_index_[axis];
     return at(lower, axis, grid.origin[axis] + (index + 0.5 + share) * grid.spacing[axis]);
   }
 
   [[nodiscard]] Vec3 normal(const DualEdge& edge, double share) const {
     const EdgeOrigins ends = origins(edge);
-    return normal(edge.axis, edge.upper_inside, edge_plane(edge.lower, ends.lower, ends),
+    return normal(edge, edge_plane(edge.lower, ends.lower, ends),
                   edge_plane(edge.upper, ends.upper, ends), share);
   }
 
   // The same from the planes of the two cells.
-  [[nodiscard]] Vec3 normal(std::size_t axis, bool upper_inside, const UnitPlane& lower,
-                            const UnitPlane& upper, double share) const {
+  [[nodiscard]] Vec3 normal(const DualEdge& edge, const UnitPlane& lower, const UnitPlane& upper,
+                            double share) const {
     // Two normals that are opposite but for this share of them leave rounding and no direction.
     constexpr double kCancelled = 1e-14;
     Vec3 sum{0.0, 0.0, 0.0};
-    double total = add_normal(axis, upper_inside, lower, 1.0 - share, sum);
-    total += add_normal(axis, upper_inside, upper, share, sum);
+    double total = add_normal(edge, edge.lower, lower, 1.0 - share, sum);
+    total += add_normal(edge, edge.upper, upper, share, sum);
     const double length = std::hypot(sum[0], sum[1], sum[2]);
     if (!(length > kCancelled * total)) {
       sum = {0.0, 0.0, 0.0};
-      sum[axis] = upper_inside ? -1.0 : 1.0;
+      sum[edge.axis] = edge.upper_inside ? -1.0 : 1.0;
       return sum;
     }
     return {sum[0] / length, sum[1] / length, sum[2] / length};
@@ -146,8 +167,11 @@ class VertexPlacer {
                                                  const UnitPlane& upper) const {
     const UnitPlane& outer = edge.upper_inside ? lower : upper;
     const UnitPlane& inner = edge.upper_inside ? upper : lower;
+    const Index3& outer_node = edge.upper_inside ? edge.lower : edge.upper;
+    const Index3& inner_node = edge.upper_inside ? edge.upper : edge.lower;
     return {window_guess(oriented(edge, outer), oriented(edge, inner)),
-            physical_weight(edge.axis, outer), physical_weight(edge.axis, inner)};
+            physical_weight(edge.axis, outer, cell_size(outer_node)),
+            physical_weight(edge.axis, inner, cell_size(inner_node))};
   }
 
  private:
@@ -187,16 +211,6 @@ class VertexPlacer {
     return grid_.cell_fraction(node, grid_.origin(node));
   }
 
-  [[nodiscard]] double place_by_window(const DualEdge& edge, const UnitPlane& lower,
-                                       const UnitPlane& upper, EdgeCounts& counts) const {
-    const EdgePlane outer = oriented(edge, edge.upper_inside ? lower : upper);
-    const EdgePlane inner = oriented(edge, edge.upper_inside ? upper : lower);
-    const WindowRoot root =
-        solve_window(outer, inner, [&] { return algorithm1_start(edge, lower, upper); });
-    counts.add(root);
-    return edge.upper_inside ? root.mu : 1.0 - root.mu;
-  }
-
   // Manson's position from the fractions that the planes stand for.
   [[nodiscard]] static double window_guess(const EdgePlane& outer, const EdgePlane& inner) {
     const window::Plane outer_plane = window::prepared(outer);
@@ -205,8 +219,15 @@ class VertexPlacer {
                            baseline::filling(outer_plane, inner_plane, 1.0).excess + 0.5);
   }
 
-  [[nodiscard]] double physical_weight(std::size_t axis, const UnitPlane& plane) const {
-    const Vec3& spacing = grid_.field().grid.spacing;
+  // Sizes of the cell that a node is, or stands for.
+  [[nodiscard]] Vec3 cell_size(const Index3& node) const {
+    const Index3& offset = grid_.field().block.offset;
+    return grid_.field().cell_size(
+        {node[0] - 1 + offset[0], node[1] - 1 + offset[1], node[2] - 1 + offset[2]});
+  }
+
+  [[nodiscard]] static double physical_weight(std::size_t axis, const UnitPlane& plane,
+                                              const Vec3& spacing) {
     if (!plane.has_normal()) {
       return std::abs(plane.a) >= 0.5 ? 0.0 : spacing[axis];
     }
@@ -266,18 +287,25 @@ class VertexPlacer {
   }
 
   // Returns the length of what it adds.
-  double add_normal(std::size_t axis, bool upper_inside, const UnitPlane& plane, double share,
+  double add_normal(const DualEdge& edge, const Index3& node, const UnitPlane& plane, double share,
                     Vec3& sum) const {
-    const double weight = share * physical_weight(axis, plane);
-    const Vec3& spacing = grid_.field().grid.spacing;
+    const Vec3 spacing = cell_size(node);
+    const double weight = share * physical_weight(edge.axis, plane, spacing);
     if (!plane.has_normal()) {
-      sum[axis] += (upper_inside ? -weight : weight) / spacing[axis];
+      sum[edge.axis] += (edge.upper_inside ? -weight : weight) / spacing[edge.axis];
       return weight > 0.0 ? share : 0.0;
     }
     for (std::size_t t = 0; t < 3; ++t) {
       sum[t] += weight * plane.m[t] / spacing[t];
     }
     return share;
+  }
+
+  [[nodiscard]] Vec3 position_between_nodes(const Index3& lower, std::size_t axis,
+                                            double share) const {
+    const double low = grid_.coordinate(axis, lower[axis]);
+    const double high = grid_.coordinate(axis, lower[axis] + 1);
+    return at(lower, axis, low + share * (high - low));
   }
 
   // Rounding must not carry a vertex onto a node. Between two nodes there are numbers, for they are

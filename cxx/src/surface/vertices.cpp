@@ -41,7 +41,7 @@ class RowPlacer {
   RowPlacer(const VertexPlacer& placer, Mesh& mesh)
       : placer_(placer),
         grid_(placer.grid()),
-        solves_windows_(placer.placement().by_planes),
+        queues_windows_(placer.placement().by_planes && !placer.grid().field().is_stretched),
         writer_(placer, mesh),
         queue_(placer, writer_, counts_) {}
 
@@ -76,8 +76,16 @@ class RowPlacer {
       }
       const std::uint64_t inside = nodes.row(j, k)[w];
       if (is_plain_row && (word.any() & ~NodeBits::range(w, plain_from, dims[0] - 1)) == 0) {
-        vertex = solves_windows_ ? queue_word(word, {64 * w, j, k}, inside, vertex)
-                                 : place_word(word, {64 * w, j, k}, inside, row, vertex);
+        if (queues_windows_) {
+          vertex = queue_word(word, {64 * w, j, k}, inside, vertex);
+        } else if (!placer_.placement().by_planes) {
+          vertex = place_word(word, {64 * w, j, k}, inside, row, vertex);
+        } else {
+          for_each_edge(word, [&](int bit, std::size_t axis) {
+            const bool upper_inside = (inside >> bit & 1) == 0;
+            place_own({{64 * w + bit, j, k}, axis, bit, upper_inside}, row, vertex++);
+          });
+        }
         continue;
       }
       for_each_edge(word, [&](int bit, std::size_t axis) {
@@ -89,8 +97,7 @@ class RowPlacer {
           place_own({node, axis, bit, upper_inside}, row, vertex++);
           return;
         }
-        DualEdge edge{node, node, axis, upper_inside};
-        ++edge.upper[axis];
+        const DualEdge edge = edge_from(node, axis, upper_inside);
         const double share = placer_.place(edge, is_of_next(node) ? counts_of_next_ : counts_);
         writer_.write(vertex, node, axis, placer_.position(edge, share));
         if (writer_.with_normals()) {
@@ -224,26 +231,37 @@ class RowPlacer {
 
   // `row` is that of the lower cell.
   void place_own(const OwnEdge& edge, const T* row, std::size_t vertex) {
-    if (solves_windows_) {
+    if (queues_windows_) {
       queue_.add(edge.node, edge.axis, edge.upper_inside, vertex, lower_plane(edge.bit),
                  upper_plane(edge.axis, edge.bit));
       return;
     }
-    const Index3& strides = grid_.field().view.strides;
-    const T* const cell = row + (edge.node[0] - 1) * strides[0];
-    write_own(edge, vertex,
-              placer_.cleared(placer_.share_of(edge.upper_inside, fraction_of(*cell),
-                                               fraction_of(cell[strides[edge.axis]]))));
+    write_own(edge, vertex, placer_.cleared(share_of_own(edge, row)));
   }
 
   void write_own(const OwnEdge& edge, std::size_t vertex, double share) {
     writer_.write(vertex, edge.node, edge.axis,
                   placer_.position_between_cells(edge.node, edge.axis, share));
     if (writer_.with_normals()) {
-      writer_.write_normal(vertex,
-                           placer_.normal(edge.axis, edge.upper_inside, lower_plane(edge.bit),
-                                          upper_plane(edge.axis, edge.bit), share));
+      writer_.write_normal(vertex, placer_.normal(dual_edge(edge), lower_plane(edge.bit),
+                                                  upper_plane(edge.axis, edge.bit), share));
     }
+  }
+
+  [[nodiscard]] static DualEdge dual_edge(const OwnEdge& edge) {
+    return edge_from(edge.node, edge.axis, edge.upper_inside);
+  }
+
+  // Not cleared.
+  double share_of_own(const OwnEdge& edge, const T* row) {
+    if (placer_.placement().by_planes) {
+      return placer_.place_by_window(dual_edge(edge), lower_plane(edge.bit),
+                                     upper_plane(edge.axis, edge.bit), counts_);
+    }
+    const Index3& strides = grid_.field().view.strides;
+    const T* const cell = row + (edge.node[0] - 1) * strides[0];
+    return placer_.share_of(edge.upper_inside, fraction_of(*cell),
+                            fraction_of(cell[strides[edge.axis]]));
   }
 
   // Of the edge along the axis from the node at a bit of the word entered last.
@@ -259,7 +277,7 @@ class RowPlacer {
 
   const VertexPlacer& placer_;
   const DualGrid& grid_;
-  bool solves_windows_;
+  bool queues_windows_;
   EdgeCounts counts_;
   EdgeCounts counts_of_next_;
   VertexWriter writer_;

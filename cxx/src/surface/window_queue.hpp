@@ -90,9 +90,8 @@ class WindowQueue {
     counts_.solved += batch_.count;
     counts_.most_steps = std::max<std::int64_t>(counts_.most_steps, most_steps);
     for (int n = 0; writer_.with_normals() && n < batch_.count; ++n) {
-      writer_.write_normal(edges_[n].number,
-                           placer_.normal(edges_[n].axis, batch_.sense[n] > 0.0, *batch_.lower[n],
-                                          *batch_.upper[n], batch_.share[n]));
+      writer_.write_normal(edges_[n].number, placer_.normal(edge_of(n), *batch_.lower[n],
+                                                            *batch_.upper[n], batch_.share[n]));
     }
     batch_.count = 0;
   }
@@ -104,14 +103,17 @@ class WindowQueue {
     std::size_t number;
   };
 
+  [[nodiscard]] DualEdge edge_of(int n) const {
+    return edge_from(edges_[n].lower, edges_[n].axis, batch_.sense[n] > 0.0);
+  }
+
   // The edges that the kernel left.
   void solve_alone() {
     for (int n = 0; n < batch_.count; ++n) {
       if ((batch_.undone >> n & 1) == 0) {
         continue;
       }
-      DualEdge edge{edges_[n].lower, edges_[n].lower, edges_[n].axis, batch_.sense[n] > 0.0};
-      ++edge.upper[edge.axis];
+      const DualEdge edge = edge_of(n);
       const UnitPlane& lower = *batch_.lower[n];
       const UnitPlane& upper = *batch_.upper[n];
       const WindowRoot root =
