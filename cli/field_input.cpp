@@ -1,5 +1,6 @@
 #include "field_input.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "names.hpp"
@@ -25,6 +26,23 @@ void add_geometry_options(CLI::App& command, FieldInput& input) {
           "Sizes of a cell; one value stands for all three.\n"
           "Default: what the file tells, else 1")
       ->option_text("DX,DY,DZ")
+      ->group("Grid");
+  command
+      .add_option_function<std::string>(
+          "--edges",
+          [&input](const std::string& text) {
+            const std::vector<std::string_view> words = split_at_commas(text);
+            if (words.size() != 3) {
+              throw CLI::ValidationError("--edges", "'" + text + "'" +
+                                                        ": three files wanted, for x, "
+                                                        "y and z; nothing stands for an axis "
+                                                        "that is uniform");
+            }
+            std::copy(words.begin(), words.end(), input.edges.begin());
+          },
+          "Stretched axes: .npy files with the faces between cells, one more than cells, in\n"
+          "place of --origin and --spacing along the axis; an axis without file is uniform")
+      ->option_text("X.npy,Y.npy,Z.npy")
       ->group("Grid");
 }
 
@@ -123,6 +141,17 @@ void add_field_options(CLI::App& command, FieldInput& input) {
   command.add_flag("--allow-outside", input.allow_outside, kAllowOutsideHelp)->group("Files");
 }
 
+double least_edge(const Grid& grid) {
+  double least = std::numeric_limits<double>::max();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    least = std::min(least, grid.width(axis, 0));
+    for (std::size_t n = 1; n < grid.faces[axis].size(); ++n) {
+      least = std::min(least, grid.faces[axis][n] - grid.faces[axis][n - 1]);
+    }
+  }
+  return least;
+}
+
 LoadedField load_field(const FieldInput& input) {
   ReadFieldOptions options{.origin = input.origin,
                            .spacing = input.spacing,
@@ -140,6 +169,14 @@ LoadedField load_field(const FieldInput& input) {
     field.file = read_field(input.path, options);
   }
   field.grid = field.file.grid();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!input.edges[axis].empty()) {
+      field.grid.faces[axis] = read_faces(input.edges[axis]);
+    }
+  }
+  if (!field.grid.is_uniform()) {
+    validate(field.grid);
+  }
   field.origin_from = source_of(input.origin, field.file.origin);
   field.spacing_from = source_of(input.spacing, field.file.spacing);
   return field;
@@ -164,6 +201,17 @@ const char* name_of(Source source) {
       break;
   }
   return "assumed";
+}
+
+std::string edges_text(const Grid& grid) {
+  std::string text;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!grid.is_uniform(axis)) {
+      text += std::string(text.empty() ? "" : "; ") + "xyz"[axis] + " from " +
+              exact(grid.faces[axis].front()) + " to " + exact(grid.faces[axis].back());
+    }
+  }
+  return text;
 }
 
 std::string with_source(const Vec3& vector, Source source) {

@@ -3,6 +3,7 @@
 /// The options with which every command takes a field, and its reading.
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -18,7 +19,8 @@ struct FieldInput {
   std::string path;
   std::optional<Vec3> origin;
   std::optional<Vec3> spacing;
-  std::optional<Index3> raw_dims;  ///< set together with raw_type
+  std::array<std::string, 3> edges;  ///< files of faces by axis; empty: the axis is uniform
+  std::optional<Index3> raw_dims;    ///< set together with raw_type
   std::optional<ValueType> raw_type;
   bool raw_big_endian = false;
   std::int64_t raw_offset = 0;
@@ -40,8 +42,11 @@ struct LoadedField {
   Source spacing_from = Source::file;
 };
 
-/// Adds --origin, --spacing, what tells values, --raw-* and --allow-outside. `input` must outlive
-/// the parsing.
+/// The smallest edge of all cells.
+[[nodiscard]] double least_edge(const Grid& grid);
+
+/// Adds --origin, --spacing, --edges, what tells values, --raw-* and --allow-outside. `input` must
+/// outlive the parsing.
 void add_field_options(CLI::App& command, FieldInput& input);
 
 /// \throw Error as read_field()
@@ -53,6 +58,8 @@ void add_field_options(CLI::App& command, FieldInput& input);
 
 /// "command line", "file" or "assumed".
 [[nodiscard]] const char* name_of(Source source);
+/// Which axes are stretched, and between which ends; empty if none is.
+[[nodiscard]] std::string edges_text(const Grid& grid);
 /// The length or place with a remark where it was assumed.
 [[nodiscard]] std::string with_source(const Vec3& vector, Source source);
 

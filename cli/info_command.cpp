@@ -86,6 +86,9 @@ void print_field(std::ostream& out, const Request& request, const LoadedField& f
   print_fact(out, "cells", dims_text(field.grid.dims) + " = " + std::to_string(facts.cells));
   print_fact(out, "origin", with_source(field.grid.origin, field.origin_from));
   print_fact(out, "spacing", with_source(field.grid.spacing, field.spacing_from));
+  if (!field.grid.is_uniform()) {
+    print_fact(out, "stretched", edges_text(field.grid));
+  }
   print_fact(out, "lowest fraction", number_or_none(facts.lowest));
   print_fact(out, "highest fraction", number_or_none(facts.highest));
   print_fact(out, "fraction volume",

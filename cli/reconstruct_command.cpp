@@ -185,6 +185,9 @@ void print_summary(const Request& request, const LoadedField& field, const Recon
       dims_text(field.grid.dims) + ", interfacial: " + std::to_string(report.interfacial_cells));
   print_fact(out, "origin", with_source(field.grid.origin, field.origin_from));
   print_fact(out, "spacing", with_source(field.grid.spacing, field.spacing_from));
+  if (!field.grid.is_uniform()) {
+    print_fact(out, "stretched", edges_text(field.grid));
+  }
   print_fact(out, "vertices", std::to_string(result.mesh.positions.size()));
   print_fact(out, "triangles", std::to_string(result.mesh.triangles.size()));
   print_fact(out, "closed", report.closed ? "yes" : "no, it ends at sides of the domain");
@@ -343,7 +346,7 @@ void run(const Request& request) {
   add_warnings(request, field, warnings);
 
   Json json = report_json(request, field, result, seconds);
-  const double cell = *std::min_element(field.grid.spacing.begin(), field.grid.spacing.end());
+  const double cell = least_edge(field.grid);
   const MeshFileReport written = write_outputs(request, result.mesh, cell, json, warnings);
   seconds.write = watch.lap();
 

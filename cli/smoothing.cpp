@@ -5,6 +5,7 @@
 
 #include "difmesh/constrained_smoothing.hpp"
 #include "difmesh/smoothing.hpp"
+#include "field_input.hpp"
 #include "names.hpp"
 #include "parse.hpp"
 #include "text.hpp"
@@ -53,8 +54,7 @@ Mesh smoothed(const Smoothing& smoothing, const SmoothingContext& context, const
       return smooth_taubin(mesh, options);
     }
     case SmoothingKind::flow: {
-      const Vec3& spacing = context.grid.spacing;
-      const double cell = *std::min_element(spacing.begin(), spacing.end());
+      const double cell = least_edge(context.grid);
       CurvatureFlowOptions options;
       options.time = smoothing.number * cell * cell;
       options.threads = context.threads;

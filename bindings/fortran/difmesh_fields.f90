@@ -8,7 +8,7 @@ module difmesh_fields
   implicit none
   private
 
-  public :: dif_view, dif_make_grid, dif_planes, dif_mollified, dif_write_field
+  public :: dif_view, dif_make_grid, dif_set_faces, dif_planes, dif_mollified, dif_write_field
   public :: dif_fractions_of_values, dif_fractions_of_labels
 
   ! field = dif_view(c, spacing, origin, ghosts): what the library is told of a solver's array
@@ -26,6 +26,15 @@ module difmesh_fields
   ! dif_fractions_of_labels make fractions.
   interface dif_view
     module procedure view_real64, view_real32, view_uint8, view_uint16, view_int32, view_int64
+  end interface
+
+  ! call dif_set_faces(field, x, y, z), of a field or a grid: stretched axes, each by its faces
+  ! between cells, one more than there are cells, strictly increasing, in place of spacing and
+  ! origin. Nothing is copied: the arrays must have the TARGET attribute, lie without gaps, and
+  ! stay where they are as long as the field or grid is in use. An axis that is left out stays
+  ! uniform; a table of another length makes a field without cells, which the library refuses.
+  interface dif_set_faces
+    module procedure set_faces_of_field, set_faces_of_grid
   end interface
 
   ! The solver's arrays, or sections without ghost layers, that dif_planes is to fill; all with the
@@ -203,6 +212,30 @@ contains
     case default
       bytes_of = 1
     end select
+  end function
+
+  subroutine set_faces_of_field(field, x, y, z)
+    type(dif_field), intent(inout) :: field
+    real(c_double), intent(in), contiguous, target, optional :: x(:), y(:), z(:)
+    if (present(x)) field%faces_x = place_of_faces(x, field%dims(1))
+    if (present(y)) field%faces_y = place_of_faces(y, field%dims(2))
+    if (present(z)) field%faces_z = place_of_faces(z, field%dims(3))
+  end subroutine
+
+  subroutine set_faces_of_grid(grid, x, y, z)
+    type(dif_grid), intent(inout) :: grid
+    real(c_double), intent(in), contiguous, target, optional :: x(:), y(:), z(:)
+    if (present(x)) grid%faces_x = place_of_faces(x, grid%dims(1))
+    if (present(y)) grid%faces_y = place_of_faces(y, grid%dims(2))
+    if (present(z)) grid%faces_z = place_of_faces(z, grid%dims(3))
+  end subroutine
+
+  ! A table of another length would be read beyond its end: the library refuses no cells.
+  type(c_ptr) function place_of_faces(faces, cells)
+    real(c_double), intent(in), contiguous, target :: faces(:)
+    integer(c_int64_t), intent(inout) :: cells
+    place_of_faces = c_loc(faces)
+    if (size(faces, kind=c_int64_t) /= cells + 1) cells = 0
   end function
 
   ! A grid without data.

@@ -134,6 +134,9 @@ module difmesh_types
     integer(c_int64_t) :: strides(3) = 0
     real(c_double) :: origin(3) = 0
     real(c_double) :: spacing(3) = 0
+    type(c_ptr) :: faces_x = c_null_ptr
+    type(c_ptr) :: faces_y = c_null_ptr
+    type(c_ptr) :: faces_z = c_null_ptr
     integer(c_int32_t) :: type = 0
     integer(c_int32_t) :: reserved = 0
   end type
@@ -194,6 +197,9 @@ module difmesh_types
     integer(c_int64_t) :: dims(3) = 0
     real(c_double) :: origin(3) = 0
     real(c_double) :: spacing(3) = 0
+    type(c_ptr) :: faces_x = c_null_ptr
+    type(c_ptr) :: faces_y = c_null_ptr
+    type(c_ptr) :: faces_z = c_null_ptr
   end type
 
   type, bind(c), public :: dif_function_options

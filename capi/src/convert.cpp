@@ -128,10 +128,28 @@ void check_strides(const Index3& dims, const Index3& strides, std::int64_t eleme
   }
 }
 
+namespace {
+
+/// Of dif_field or dif_grid.
+template <class Given>
+Grid grid_of(const Given& given) {
+  Grid grid{to_index(given.dims), to_vec(given.origin), to_vec(given.spacing)};
+  validate(Grid{.dims = grid.dims});
+  const double* const faces[3] = {given.faces_x, given.faces_y, given.faces_z};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (faces[axis] != nullptr) {
+      grid.faces[axis].assign(faces[axis], faces[axis] + grid.dims[axis] + 1);
+    }
+  }
+  validate(grid);
+  return grid;
+}
+
+}  // namespace
+
 Field to_field(const dif_field* field) {
   const dif_field given = read_field_struct(field);
-  const Grid grid{to_index(given.dims), to_vec(given.origin), to_vec(given.spacing)};
-  validate(grid);
+  const Grid grid = grid_of(given);
   return {to_view(given), grid};
 }
 
@@ -152,9 +170,7 @@ Grid to_grid(const dif_grid* grid) {
   dif_grid defaults{};
   std::fill_n(defaults.spacing, 3, 1.0);
   const dif_grid given = read_struct(grid, defaults, "grid");
-  const Grid result{to_index(given.dims), to_vec(given.origin), to_vec(given.spacing)};
-  validate(result);
-  return result;
+  return grid_of(given);
 }
 
 Boundary to_boundary(const std::int32_t (&from)[6]) {

@@ -92,6 +92,11 @@ Grid FieldFile::grid() const {
   return {dims, origin.value_or(Vec3{0.0, 0.0, 0.0}), spacing.value_or(Vec3{1.0, 1.0, 1.0})};
 }
 
+std::vector<double> read_faces(const std::filesystem::path& path) {
+  const DefaultFloatEnvironment environment;
+  return detail::naming_file(path, [&] { return detail::read_faces_npy(path); });
+}
+
 FieldFile read_field(const std::filesystem::path& path, const ReadFieldOptions& options) {
   const DefaultFloatEnvironment environment;
   detail::check_options(path, options);

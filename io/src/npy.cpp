@@ -272,30 +272,56 @@ Index3 dims_of(const std::filesystem::path& path, const NpyHeader& header) {
   return {header.shape[(*axes)[2]], header.shape[(*axes)[1]], header.shape[(*axes)[0]]};
 }
 
+/// The elements behind a header, so many as it promises, and nothing else.
+RawCells read_elements(const InputFile& file, const std::filesystem::path& path,
+                       const NpyHeader& header, const Index3& dims) {
+  const ElementType type = element_type(path, header.type);
+  const std::int64_t bytes = bytes_promised(path, dims, size_of(type.value));
+  const std::int64_t found = file.size() - header.data_offset;
+  if (found != bytes) {
+    fail_format(path, (found < bytes ? "truncated: " : "too long: ") + to_text(dims) +
+                          " cells of type '" + header.type + "' are " + std::to_string(bytes) +
+                          " bytes after the header, " + std::to_string(found) + " found");
+  }
+  RawCells raw{type.value, type.big_endian, type.boolean, {}};
+  make_room(path, raw.bytes, bytes);
+  file.read(header.data_offset, raw.bytes.data(), bytes);
+  return type.half ? widened(path, std::move(raw)) : std::move(raw);
+}
+
 }  // namespace
+
+std::vector<double> read_faces_npy(const std::filesystem::path& path) {
+  const InputFile file(path);
+  const NpyHeader header = read_header(file);
+  if (header.shape.size() != 1 || header.shape[0] < 2) {
+    fail_format(path, "an array of rank " + std::to_string(header.shape.size()) +
+                          "; the faces of an axis have rank 1, and are two or more");
+  }
+  const std::int64_t count = header.shape[0];
+  RawCells raw = read_elements(file, path, header, {count, 1, 1});
+  std::vector<double> faces(static_cast<std::size_t>(count));
+  with_value_type(raw.type, [&]<class T>(T) {
+    if (raw.big_endian != kBigEndianHost) {
+      swap_bytes(raw.bytes.data(), static_cast<std::int64_t>(raw.bytes.size()), sizeof(T));
+    }
+    for (std::size_t n = 0; n < faces.size(); ++n) {
+      T value;
+      std::memcpy(&value, raw.bytes.data() + n * sizeof(T), sizeof(T));
+      faces[n] = static_cast<double>(value);
+    }
+  });
+  return faces;
+}
 
 FieldFile read_npy(const std::filesystem::path& path, const ReadFieldOptions& options) {
   const InputFile file(path);
   const NpyHeader header = read_header(file);
-  const ElementType type = element_type(path, header.type);
   FieldFile field;
   field.dims = dims_of(path, header);
-  const std::int64_t bytes = bytes_promised(path, field.dims, size_of(type.value));
-  const std::int64_t found = file.size() - header.data_offset;
-  if (found != bytes) {
-    fail_format(path, (found < bytes ? "truncated: " : "too long: ") + to_text(field.dims) +
-                          " cells of type '" + header.type + "' are " + std::to_string(bytes) +
-                          " bytes after the header, " + std::to_string(found) + " found");
-  }
   const auto [nx, ny, nz] = field.dims;
   field.strides = header.fortran_order ? Index3{nz * ny, nz, 1} : Index3{1, nx, nx * ny};
-  RawCells raw{type.value, type.big_endian, type.boolean, {}};
-  make_room(path, raw.bytes, bytes);
-  file.read(header.data_offset, raw.bytes.data(), bytes);
-  if (type.half) {
-    raw = widened(path, std::move(raw));
-  }
-  set_cells(path, std::move(raw), options, field);
+  set_cells(path, read_elements(file, path, header, field.dims), options, field);
   override_grid(options, field);
   return field;
 }

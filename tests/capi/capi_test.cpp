@@ -595,3 +595,32 @@ TEST_CASE("overlapping parts of a mesh are united or refused or counted") {
         DIF_ERROR_INVALID_ARGUMENT);
   CHECK(std::string(dif_last_message()).find("overlap: cell (2, 1, 1)") != std::string::npos);
 }
+
+TEST_CASE("stretched axes") {
+  const std::vector<double> z{0.0, 1.0, 4.0, 5.0};
+  const std::vector<double> fractions{1.0, 1.0, 1.0, 1.0, 0.5, 0.5, 0.5, 0.5, 0.0, 0.0, 0.0, 0.0};
+  const std::int64_t dims[3] = {2, 2, 3};
+  dif_field field{};
+  REQUIRE(dif_field_init(&field, sizeof field, fractions.data(), DIF_FLOAT64, dims) == DIF_OK);
+  field.faces_z = z.data();
+  dif_mesh* mesh = nullptr;
+  REQUIRE(dif_reconstruct(&field, nullptr, &mesh) == DIF_OK);
+  std::int64_t count = 0;
+  const double* positions = nullptr;
+  REQUIRE(dif_mesh_positions(mesh, &positions, &count) == DIF_OK);
+  REQUIRE(count > 0);
+  for (std::int64_t v = 0; v < count; ++v) {
+    CHECK(positions[3 * v + 2] == doctest::Approx(2.5).epsilon(1e-11));
+  }
+  dif_report report{};
+  REQUIRE(dif_report_init(&report, sizeof report) == DIF_OK);
+  REQUIRE(dif_mesh_report(mesh, &report) == DIF_OK);
+  CHECK(report.fraction_volume == doctest::Approx(4.0 * (1.0 + 1.5)).epsilon(1e-15));
+  dif_mesh_free(mesh);
+
+  const std::vector<double> bad{0.0, 1.0, 1.0, 5.0};
+  field.faces_z = bad.data();
+  CHECK(dif_reconstruct(&field, nullptr, &mesh) == DIF_ERROR_INVALID_GRID);
+  CHECK(std::string(dif_last_message()) ==
+        "faces in z: number 2 is not greater than the one before");
+}

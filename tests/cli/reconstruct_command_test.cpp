@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -143,6 +145,43 @@ TEST_CASE("boundaries are those of the library") {
   }
   check("open,mirror,empty,full,periodic,periodic",
         {Side::open, Side::mirror, Side::empty, Side::full, Side::periodic, Side::periodic});
+}
+
+namespace {
+
+// NumPy's format, version 1.0, of float64 in one axis.
+void write_table(const std::filesystem::path& path, const std::vector<double>& numbers) {
+  std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': (" +
+                       std::to_string(numbers.size()) + ",), }";
+  header.resize(117, ' ');
+  header += '\n';
+  std::ofstream file(path, std::ios::binary);
+  file << "\x93NUMPY\x01" << '\0' << static_cast<char>(118) << '\0' << header;
+  file.write(reinterpret_cast<const char*>(numbers.data()),
+             static_cast<std::streamsize>(numbers.size() * sizeof(double)));
+}
+
+}  // namespace
+
+TEST_CASE("stretched axes come from files") {
+  Place place;
+  OwnedField field = difmesh::test::white_noise({4, 5, 3}, 3);
+  write_field(place.folder / "noise.npy", field.view());
+  Grid grid{field.dims, {0.5, 0, 0}, {2.0, 1, 1}};
+  grid.faces[1] = {0.0, 1.0, 2.5, 3.0, 4.0, 7.0};
+  grid.faces[2] = {-1.0, 1.0, 1.5, 3.0};
+  write_table(place.folder / "y.npy", grid.faces[1]);
+  write_table(place.folder / "z.npy", grid.faces[2]);
+  const std::string y = (place.folder / "y.npy").string();
+  const std::string z = (place.folder / "z.npy").string();
+  const Mesh mesh = place.reconstruct(
+      "noise.npy", {"--edges", "," + y + "," + z, "--origin", "0.5,0,0", "--spacing", "2,1,1"});
+  CHECK(same_bits(mesh, reconstruct(field.view(), grid).mesh));
+  CHECK(place.run("noise.npy", {"--edges", y + "," + y + "," + z})
+            .err.find("faces in x: 6 for 4 cells") != std::string::npos);
+  CHECK(place.run("noise.npy", {"--edges", y}).err.find("three files wanted") != std::string::npos);
+  CHECK(place.run("noise.npy", {"--edges", ",,none.npy"}).err.find("none.npy") !=
+        std::string::npos);
 }
 
 TEST_CASE("a box on a grid of its own unit keeps its place and volume") {

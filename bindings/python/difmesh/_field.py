@@ -62,7 +62,9 @@ class Field:
     fractions: npt.NDArray[Any]  #: [k, j, i]; from a file: read-only
     spacing: tuple[float, float, float] = (1.0, 1.0, 1.0)  #: edges of a cell in x, y, z
     origin: tuple[float, float, float] = (0.0, 0.0, 0.0)  #: low corner of the grid
-    report: Union[FunctionReport, TriangleReport, None] = None  #: of the sample_...() functions
+    report: Union[FunctionReport, TriangleReport, None] = None  #: of fractions_from_...()
+    #: of stretched axes: the faces of cells along x, y, z; None for an axis that is uniform
+    edges: Union[tuple[Any, Any, Any], None] = None
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> npt.NDArray[Any]:
         if copy:

@@ -12,7 +12,7 @@ from ._calls import Function, Handle, Progress, Relay
 from ._errors import check
 from ._field import Field, FunctionReport, TriangleReport
 from ._library import defaults, library
-from ._memory import Triple, address_of, floats, grid_struct, triple
+from ._memory import Edges, Triple, address_of, floats, grid_struct, triple
 from ._mesh import Mesh, to_dataclass, triples
 from ._options import choice, choices, int32
 from ._structs import (
@@ -110,7 +110,13 @@ def _sample(
     # What the library refuses anyway must not be allocated before.
     fractions = np.empty(tuple(grid.dims)[::-1] if valid else (1, 1, 1))
     relay.call(call, byref(grid), *arguments, byref(report), fractions.ctypes.data)
-    return Field(fractions, floats(grid.spacing), floats(grid.origin), to_dataclass(kind, report))
+    return Field(
+        fractions,
+        floats(grid.spacing),
+        floats(grid.origin),
+        to_dataclass(kind, report),
+        getattr(grid, "_edges", None),
+    )
 
 
 def _function_options(
@@ -138,6 +144,7 @@ def fractions_from_function(
     spacing: Triple = 1.0,
     origin: Triple = 0.0,
     *,
+    edges: Edges = None,
     gradient: Optional[Function] = None,
     tolerance: Optional[float] = None,
     kink_tolerance: Optional[float] = None,
@@ -151,6 +158,7 @@ def fractions_from_function(
         but for kinks. What it raises cancels, and is raised here.
     dims: cells in x, y, z, or one number for all; the array of fractions has shape (nz, ny, nx).
     spacing, origin: edges of a cell, and low corner of the grid; in x, y, z or one number for all.
+    edges: stretched axes, as for reconstruct().
     gradient: of function, (n, 3) to (n, 3); makes cells in which f wiggles safer.
     tolerance, kink_tolerance: aimed at in each cell's fraction, and where f has a kink; both in
         [1e-13, 1e-2], 1e-10 and 1e-5.
@@ -166,7 +174,7 @@ def fractions_from_function(
         options.gradient = relay.function(gradient, "gradient", vectors=True)
     return _sample(
         relay,
-        grid_struct(dims, spacing, origin),
+        grid_struct(dims, spacing, origin, edges),
         FunctionReport,
         library.dif_fractions_from_function,
         relay.function(function, "function"),
@@ -182,6 +190,7 @@ def fractions_from_shape(
     spacing: Triple = 1.0,
     origin: Triple = 0.0,
     *,
+    edges: Edges = None,
     tolerance: Optional[float] = None,
     kink_tolerance: Optional[float] = None,
     max_calls_per_cell: Optional[int] = None,
@@ -195,7 +204,7 @@ def fractions_from_shape(
     options = _function_options(relay, tolerance, kink_tolerance, max_calls_per_cell, threads)
     return _sample(
         relay,
-        grid_struct(dims, spacing, origin),
+        grid_struct(dims, spacing, origin, edges),
         FunctionReport,
         library.dif_fractions_from_shape,
         shape._handle.pointer,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Sequence, Union
+from typing import Any, Optional, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -102,14 +102,45 @@ def index_triple(value: int | Sequence[int] | npt.NDArray[Any], name: str) -> tu
     return x, y, z
 
 
+#: The faces of cells along x, y and z; None: the axis is uniform.
+Edges = Optional[Sequence[Any]]
+
+
 def grid_struct(
-    dims: int | Sequence[int] | npt.NDArray[Any], spacing: Triple, origin: Triple
+    dims: int | Sequence[int] | npt.NDArray[Any],
+    spacing: Triple,
+    origin: Triple,
+    edges: Edges = None,
 ) -> DifGrid:
-    return DifGrid(
+    struct = DifGrid(
         dims=index_triple(dims, "dims"),
         origin=triple(origin, "origin"),
         spacing=triple(spacing, "spacing"),
     )
+    set_faces(struct, edges)
+    return struct
+
+
+def set_faces(struct: Any, edges: Edges) -> None:
+    """Gives a DifGrid or DifField its faces, which live as long as it does."""
+    if edges is None:
+        return
+    tables = tuple(edges)
+    if len(tables) != 3:
+        raise ValueError(f"edges are three arrays or None, for x, y and z; got {len(tables)}")
+    kept = []
+    for axis, cells, table in zip("xyz", struct.dims, tables):
+        if table is None:
+            continue
+        faces = np.require(table, np.float64, ["A", "C"])
+        if faces.shape != (cells + 1,):
+            raise ValueError(
+                f"edges in {axis} have the shape {faces.shape}; {cells} cells need ({cells + 1},)"
+            )
+        setattr(struct, f"faces_{axis}", faces.ctypes.data)
+        kept.append(faces)
+    struct._faces = kept
+    struct._edges = tables
 
 
 def axis_order(axes: str) -> slice:
@@ -179,7 +210,11 @@ def _is_regular(array: npt.NDArray[Any]) -> bool:
 
 
 def field_struct(
-    fractions: Any, spacing: Triple | None, origin: Triple | None, axes: str
+    fractions: Any,
+    spacing: Triple | None,
+    origin: Triple | None,
+    axes: str,
+    edges: Edges = None,
 ) -> tuple[DifField, npt.NDArray[Any]]:
     """The library's view of fractions, and the array that must outlive it."""
     if isinstance(fractions, Field):
@@ -187,11 +222,13 @@ def field_struct(
             raise ValueError("the axes of a Field are k, j, i")
         spacing = fractions.spacing if spacing is None else spacing
         origin = fractions.origin if origin is None else origin
+        edges = fractions.edges if edges is None else edges
         fractions = fractions.fractions
     array = fractions_array(fractions)
     struct = array_struct(array, axes)
     struct.origin = triple(0.0 if origin is None else origin, "origin")
     struct.spacing = triple(1.0 if spacing is None else spacing, "spacing")
+    set_faces(struct, edges)
     return struct, array
 
 

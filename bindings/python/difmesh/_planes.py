@@ -12,7 +12,7 @@ import numpy.typing as npt
 from ._calls import Progress, Relay
 from ._errors import check
 from ._library import library
-from ._memory import Triple, address_of, field_struct, triple
+from ._memory import Edges, Triple, address_of, field_struct, triple
 from ._options import to_options
 from ._structs import DifPlaneArrays
 
@@ -32,6 +32,7 @@ def normals(
     *,
     spacing: Optional[Triple] = None,
     origin: Optional[Triple] = None,
+    edges: Edges = None,
     axes: str = "kji",
     normals: str = "height_function",
     boundary: Union[str, Sequence[str]] = "open",
@@ -46,7 +47,7 @@ def normals(
     x, y, z of the normals last, and lie x fastest, component by component, as solvers have them.
     """
     relay = Relay(progress)
-    field, array = field_struct(fractions, spacing, origin, axes)
+    field, array = field_struct(fractions, spacing, origin, axes, edges)
     options = to_options(
         relay,
         boundary,
@@ -80,6 +81,7 @@ def cell_planes(
     *,
     spacing: Optional[Triple] = None,
     origin: Optional[Triple] = None,
+    edges: Edges = None,
     axes: str = "kji",
     normals: str = "height_function",
     boundary: Union[str, Sequence[str]] = "open",
@@ -99,7 +101,7 @@ def cell_planes(
         )
     index = np.require(given, np.int64, ["A", "C"])
     relay = Relay(progress)
-    field, array = field_struct(fractions, spacing, origin, axes)
+    field, array = field_struct(fractions, spacing, origin, axes, edges)
     options = to_options(
         relay, boundary, normals=normals, purity_tolerance=purity_tolerance, threads=threads
     )

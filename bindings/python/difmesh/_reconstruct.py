@@ -11,7 +11,7 @@ from . import _constants
 from ._calls import Progress, Relay
 from ._errors import check, warn_of
 from ._library import library
-from ._memory import Triple, field_struct, grid_struct, index_triple
+from ._memory import Edges, Triple, field_struct, grid_struct, index_triple
 from ._mesh import Mesh, new_mesh_handle
 from ._options import to_options
 from ._structs import DifBlock
@@ -26,6 +26,7 @@ def reconstruct(
     *,
     spacing: Optional[Triple] = None,
     origin: Optional[Triple] = None,
+    edges: Edges = None,
     axes: str = "kji",
     full_value: Optional[float] = None,
     empty_value: float = 0.0,
@@ -55,6 +56,8 @@ def reconstruct(
         Elements must be aligned and in the machine's byte order.
     spacing, origin: edges of a cell, and low corner of the grid, in x, y, z or one number for all;
         that of the Field, or 1 and 0.
+    edges: stretched axes: for x, y and z the faces between cells, one more than there are cells,
+        strictly increasing, in place of spacing and origin; None for an axis that is uniform.
     axes: "kji" if the array is indexed [k, j, i], z first and x last, as C and most files have
         it; "ijk" if it is indexed [i, j, k]. Says nothing of how it lies in memory.
     full_value, empty_value: the values that stand for 1 and 0, as fractions_from_values() takes
@@ -85,7 +88,7 @@ def reconstruct(
     """
     relay = Relay(progress)
     asked = taken_as_asked(fractions, full_value, empty_value, labels)
-    field, array = field_struct(asked, spacing, origin, axes)
+    field, array = field_struct(asked, spacing, origin, axes, edges)
     options = to_options(
         relay,
         boundary,
@@ -116,6 +119,7 @@ def reconstruct_block(
     ghost_high: Union[int, Sequence[int], npt.NDArray[Any]] = 0,
     spacing: Triple = 1.0,
     origin: Triple = 0.0,
+    edges: Edges = None,
     axes: str = "kji",
     placement: str = "plic",
     normals: str = "height_function",
@@ -132,7 +136,7 @@ def reconstruct_block(
     fractions: of the cells [offset - ghost_low, offset + dims + ghost_high) of the whole grid,
         which has grid_dims cells; GHOST_LAYERS ghost cells are needed beyond each face of the
         block, as far as the domain reaches. All of these in x, y, z.
-    spacing, origin, boundary: of the whole grid. Others as for reconstruct(). The mesh has
+    spacing, origin, edges, boundary: of the whole grid. Others as for reconstruct(). The mesh has
     edge_ids.
     """
     relay = Relay(progress)
@@ -154,7 +158,7 @@ def reconstruct_block(
         ghost_low=index_triple(ghost_low, "ghost_low"),
         ghost_high=index_triple(ghost_high, "ghost_high"),
     )
-    grid = grid_struct(grid_dims, spacing, origin)
+    grid = grid_struct(grid_dims, spacing, origin, edges)
     handle = new_mesh_handle()
     relay.call(
         library.dif_reconstruct_block,

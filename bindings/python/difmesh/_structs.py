@@ -22,6 +22,9 @@ class DifField(Sized):
         ("strides", c_int64 * 3),
         ("origin", c_double * 3),
         ("spacing", c_double * 3),
+        ("faces_x", c_void_p),
+        ("faces_y", c_void_p),
+        ("faces_z", c_void_p),
         ("type", c_int32),
         ("reserved", c_int32),
     ]
@@ -90,6 +93,9 @@ class DifGrid(Sized):
         ("dims", c_int64 * 3),
         ("origin", c_double * 3),
         ("spacing", c_double * 3),
+        ("faces_x", c_void_p),
+        ("faces_y", c_void_p),
+        ("faces_z", c_void_p),
     ]
 
 

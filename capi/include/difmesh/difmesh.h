@@ -154,8 +154,12 @@ typedef struct dif_field {
   int64_t strides[3]; /* elements from a cell to the next one in x, y, z; may be 0 or negative */
   double origin[3];   /* low corner of cell (0, 0, 0) */
   double spacing[3];  /* edges of a cell, in [2^-300, 2^300] */
-  int32_t type;       /* DIF_FLOAT64, ...; of values, see section 5, also DIF_INT8, ... */
-  int32_t reserved;   /* 0 */
+  const double*
+      faces_x; /* stretched axes: dims + 1 strictly increasing faces of cells in place of */
+  const double* faces_y; /*   origin and spacing along the axis, read during calls; NULL, the */
+  const double* faces_z; /*   default: the axis is uniform */
+  int32_t type;          /* DIF_FLOAT64, ...; of values, see section 5, also DIF_INT8, ... */
+  int32_t reserved;      /* 0 */
 } dif_field;
 
 /* Describes `dims[0]` x `dims[1]` x `dims[2]` cells that lie without gaps, x fastest, as in a C
@@ -393,6 +397,10 @@ typedef struct dif_grid {
   int64_t dims[3];   /* cells in x, y, z; >= 1 each */
   double origin[3];  /* low corner of cell (0, 0, 0) */
   double spacing[3]; /* edges of a cell, in [2^-300, 2^300] */
+  const double*
+      faces_x; /* stretched axes: dims + 1 strictly increasing faces of cells in place of */
+  const double* faces_y; /*   origin and spacing along the axis, read during calls; NULL, the */
+  const double* faces_z; /*   default: the axis is uniform */
 } dif_grid;
 
 /* Origin 0, spacing 1, which can be set afterwards. Errors: INVALID_ARGUMENT, STRUCT. Since 0.2. */

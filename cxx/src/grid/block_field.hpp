@@ -75,8 +75,8 @@ struct BlockField {
   double purity_tolerance = 0.0;
   bool is_stretched = false;  ///< some axis of the grid is not uniform
 
-  /// Sizes of a cell by its global index, which may be beyond the sides: behind mirrors and periodic
-  /// sides that of the cell that stands there, elsewhere that of the nearest one.
+  /// Sizes of a cell by its global index, which may be beyond the sides: behind mirrors and
+  /// periodic sides that of the cell that stands there, elsewhere that of the nearest one.
   [[nodiscard]] Vec3 cell_size(const Index3& cell) const {
     return is_stretched ? Vec3{width(0, cell[0]), width(1, cell[1]), width(2, cell[2])}
                         : grid.spacing;

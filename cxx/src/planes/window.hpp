@@ -5,9 +5,9 @@
 // 0) to that of the inner cell K1 (s = 1). The vertex is where the planes of K0 and K1, each within
 // its own cell, fill half of T.
 //
-// On stretched axes the cells have sizes h0 and h1 along the edge, and T = [lo0 + μ h0, hi0 + μ h1],
-// with [lo0, hi0] the extent of K0: it starts as K0, ends as K1, and its centre is (1 - μ) x0 + μ x1.
-// In the unit of each cell T covers the same part of it as before, [μ - 1/2, 1/2] of K0 and
+// On stretched axes the cells have sizes h0 and h1 along the edge, and T = [lo0 + μ h0, hi0 + μ h1]
+// with [lo0, hi0] the extent of K0: it starts as K0, ends as K1, and its centre is (1 - μ) x0 +
+// μ x1. In the unit of each cell T covers the same part of it as before, [μ - 1/2, 1/2] of K0 and
 // [-1/2, μ - 1/2] of K1, so what changes is the weight of the parts alone: half full is where
 // h0 (V0 - (1 - μ)/2) + h1 (V1 - μ/2) = 0, V0 and V1 the shares filled of the unit cells. A plane
 // through the centre of T halves it, so planes stay exact.

@@ -125,6 +125,7 @@ contains
   subroutine test_samples()
     real(8) :: fractions(16, 17, 18), with_ghosts(0:17, 0:18, 0:19), expected(3, 18)
     real(8) :: volume
+    real(8), target :: faces(19)
     type(dif_grid) :: grid
     type(dif_function_report) :: report
     type(dif_shape_options) :: options
@@ -132,6 +133,17 @@ contains
     type(dif_mesh) :: box
     integer :: status, i, j, k
     character(1000) :: message
+    calls = 0
+    faces = [(real(k, 8), k = 0, 18)]
+    ! Unit cells, as tables: the same grid; then a table that is too short.
+    grid = dif_make_grid([16, 17, 18])
+    call dif_set_faces(grid, z=faces)
+    call dif_fractions_of_function(grid, distance, fractions, status, report=report)
+    call expect_near(sum(fractions), 4*acos(-1d0)/3*5.5d0**3, 1d-6, 'volume of a ball by faces')
+    grid = dif_make_grid([16, 17, 18])
+    call dif_set_faces(grid, y=faces)
+    call dif_fractions_of_function(grid, distance, fractions, status)
+    call expect(status /= dif_ok, 'faces of another axis')
     calls = 0
     grid = dif_make_grid([16, 17, 18])
     call dif_fractions_of_function(grid, distance, fractions, status, report=report)

@@ -296,5 +296,48 @@ class Files(unittest.TestCase):
         self.assertEqual(os.listdir(self.folder), [])
 
 
+
+class Stretched(unittest.TestCase):
+    """Grids whose axes are tables of faces."""
+
+    def setUp(self):
+        steps = 1.0 + 0.2 * np.sin(np.arange(24))
+        faces = np.concatenate(([0.0], np.cumsum(steps)))
+        self.edges = tuple(scale * (faces / faces[-1]) - 0.5 * scale for scale in (3.0, 3.2, 3.4))
+
+    def test_a_ball(self):
+        shape = difmesh.Shape("sphere", radius=1.2)
+        field = difmesh.fractions_from_shape(shape, 24, edges=self.edges)
+        ball = 4 / 3 * np.pi * 1.2**3
+        self.assertAlmostEqual(field.report.fraction_volume, ball, places=8)
+        mesh = difmesh.reconstruct(field)
+        self.assertTrue(mesh.report.closed)
+        self.assertAlmostEqual(mesh.report.fraction_volume, ball, places=8)
+        radii = np.linalg.norm(mesh.points, axis=1)
+        self.assertLess(np.abs(radii - 1.2).max(), 0.01)
+        again = difmesh.reconstruct(field.fractions, edges=[list(e) for e in self.edges])
+        self.assertTrue((again.points == mesh.points).all())
+        planes = difmesh.normals(field)
+        cells = np.argwhere((field.fractions > 0.1) & (field.fractions < 0.9))
+        for k, j, i in cells[::37]:
+            centre = [0.5 * (e[n] + e[n + 1]) for e, n in zip(self.edges, (i, j, k))]
+            self.assertGreater(planes.normals[k, j, i] @ centre / np.linalg.norm(centre), 0.99)
+
+    def test_one_axis(self):
+        field = np.zeros((3, 4, 5))
+        field[:2] = 1.0
+        field[1] = 0.5
+        mesh = difmesh.reconstruct(field, spacing=2.0, edges=(None, None, [0.0, 1.0, 4.0, 5.0]))
+        self.assertTrue(np.abs(mesh.points[:, 2] - 2.5).max() < 1e-11)
+
+    def test_bad_tables(self):
+        field = np.full((3, 3, 3), 0.5)
+        for edges in ((1, 2), ([0, 1, 2], None, None), (None, [[0, 1, 2, 3]], None)):
+            with self.subTest(edges=edges), self.assertRaises(ValueError):
+                difmesh.reconstruct(field, edges=edges)
+        with self.assertRaisesRegex(difmesh.InvalidGridError, "faces in z: number 2"):
+            difmesh.reconstruct(field, edges=(None, None, [0, 1, 1, 2]))
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -91,6 +91,10 @@ struct ReadFieldOptions {
 [[nodiscard]] FieldFile read_field(const std::filesystem::path& path, const RawLayout& layout,
                                    const ReadFieldOptions& options = {});
 
+/// The faces of cells along a stretched axis (Grid::faces) from a .npy of rank 1, of any type of
+/// numbers. \throw Error file_missing, file_format; OutOfMemory
+[[nodiscard]] std::vector<double> read_faces(const std::filesystem::path& path);
+
 enum class FieldFormat : std::uint8_t {
   npy,   ///< version 1.0, little endian, C order (nz,ny,nx). Holds no origin and no spacing
   nrrd,  ///< NRRD0004, little endian, attached; `space origin` is the centre of cell (0,0,0)
