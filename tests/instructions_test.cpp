@@ -92,7 +92,8 @@ OwnedField waves(const Index3& dims) {
   return field;
 }
 
-// A wavy film across the domain: all of it in a few layers of cells across the axis, about `middle`.
+// A wavy film across the domain: all of it in a few layers of cells across the axis, about
+// `middle`.
 OwnedField film(const Index3& dims, std::size_t axis, double middle) {
   OwnedField field(dims);
   for (std::int64_t k = 0; k < dims[2]; ++k) {
