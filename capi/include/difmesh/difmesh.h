@@ -965,7 +965,9 @@ typedef struct dif_block {
 /* Prepares a block of 0 cells. Errors: INVALID_ARGUMENT, STRUCT. Since 0.2. */
 DIF_API dif_status dif_block_init(dif_block* block, uint64_t struct_size);
 /* As dif_reconstruct(), of one block. `grid` is the whole grid; origin and spacing of `field` are
- * not looked at. The mesh has edge_ids. Since 0.2. */
+ * not looked at. The mesh has edge_ids. Its report says what the block adds to the whole: its own
+ * cells, the edges it owns (whose lower node is one of them), `closed` unless the surface ends at a
+ * side of the domain, and a volume whose sum over the blocks is that enclosed. Since 0.2. */
 DIF_API dif_status dif_reconstruct_block(const dif_field* field, const dif_block* block,
                                          const dif_grid* grid, const dif_options* options,
                                          dif_mesh** mesh);
