@@ -19,27 +19,31 @@ double fraction_of(T value) {
 
 class Looker {
  public:
-  explicit Looker(double tolerance) : tolerance_(tolerance) {}
+  Looker(const Grid& grid, double tolerance) : grid_(grid), tolerance_(tolerance) {}
 
   template <class T>
   FieldFacts look(const FieldView& field) {
     const T* const cells = static_cast<const T*>(field.data);
+    const bool is_uniform = grid_.is_uniform();
+    double sum = 0.0;
     for (std::int64_t k = 0; k < field.dims[2]; ++k) {
       for (std::int64_t j = 0; j < field.dims[1]; ++j) {
         const T* const row = cells + j * field.strides[1] + k * field.strides[2];
         row_sum_ = 0.0;
         for (std::int64_t i = 0; i < field.dims[0]; ++i) {
-          take(fraction_of(row[i * field.strides[0]]), {i, j, k});
+          take(fraction_of(row[i * field.strides[0]]), {i, j, k},
+               is_uniform ? 1.0 : grid_.width(0, i));
         }
-        facts_.fraction_sum += row_sum_;
+        sum += row_sum_ * (is_uniform ? 1.0 : grid_.width(1, j) * grid_.width(2, k));
       }
     }
+    facts_.fraction_volume = is_uniform ? sum * grid_.cell_volume() : sum;
     facts_.cells = field.dims[0] * field.dims[1] * field.dims[2];
     return facts_;
   }
 
  private:
-  void take(double fraction, const Index3& cell) {
+  void take(double fraction, const Index3& cell, double weight) {
     if (std::isnan(fraction)) {
       ++facts_.nan;
       facts_.first_nan_cell = facts_.first_nan_cell.value_or(cell);
@@ -47,7 +51,7 @@ class Looker {
     }
     facts_.lowest = std::min(facts_.lowest.value_or(fraction), fraction);
     facts_.highest = std::max(facts_.highest.value_or(fraction), fraction);
-    row_sum_ += std::clamp(fraction, 0.0, 1.0);
+    row_sum_ += weight * std::clamp(fraction, 0.0, 1.0);
     facts_.empty += fraction == 0.0 ? 1 : 0;
     facts_.full += fraction == 1.0 ? 1 : 0;
     facts_.interfacial += fraction > tolerance_ && fraction < 1.0 - tolerance_ ? 1 : 0;
@@ -63,6 +67,7 @@ class Looker {
     }
   }
 
+  const Grid& grid_;
   double tolerance_;
   double row_sum_ = 0.0;
   FieldFacts facts_;
@@ -70,8 +75,8 @@ class Looker {
 
 }  // namespace
 
-FieldFacts look_at_field(const FieldView& field, double purity_tolerance) {
-  Looker looker(purity_tolerance);
+FieldFacts look_at_field(const FieldView& field, const Grid& grid, double purity_tolerance) {
+  Looker looker(grid, purity_tolerance);
   switch (field.type) {
     case ScalarType::float32:
       return looker.look<float>(field);

@@ -16,7 +16,7 @@ struct FieldFacts {
   std::int64_t cells = 0;
   std::optional<double> lowest;  ///< none where all are NaN
   std::optional<double> highest;
-  double fraction_sum = 0.0;      ///< clamped to [0, 1]
+  double fraction_volume = 0.0;   ///< Σγ|K|, γ clamped to [0, 1]
   std::int64_t interfacial = 0;   ///< tolerance < γ < 1 - tolerance
   std::int64_t nearly_empty = 0;  ///< 0 < |γ| <= tolerance
   std::int64_t nearly_full = 0;   ///< 1 - tolerance <= γ < 1
@@ -30,6 +30,7 @@ struct FieldFacts {
 };
 
 /// One pass over the field, in the order z, y, x.
-[[nodiscard]] FieldFacts look_at_field(const FieldView& field, double purity_tolerance);
+[[nodiscard]] FieldFacts look_at_field(const FieldView& field, const Grid& grid,
+                                       double purity_tolerance);
 
 }  // namespace difmesh::cli

@@ -203,6 +203,14 @@ const char* name_of(Source source) {
   return "assumed";
 }
 
+Json edges_json(const Grid& grid) {
+  Json edges = Json::array();
+  for (const std::vector<double>& faces : grid.faces) {
+    edges.push_back(faces.empty() ? Json() : Json(faces));
+  }
+  return edges;
+}
+
 std::string edges_text(const Grid& grid) {
   std::string text;
   for (std::size_t axis = 0; axis < 3; ++axis) {

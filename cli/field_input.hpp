@@ -11,6 +11,7 @@
 
 #include "difmesh/grid.hpp"
 #include "difmesh/io/field_file.hpp"
+#include "json.hpp"
 
 namespace difmesh::cli {
 
@@ -58,6 +59,8 @@ void add_field_options(CLI::App& command, FieldInput& input);
 
 /// "command line", "file" or "assumed".
 [[nodiscard]] const char* name_of(Source source);
+/// By axis the faces of its cells where it is stretched, else null.
+[[nodiscard]] Json edges_json(const Grid& grid);
 /// Which axes are stretched, and between which ends; empty if none is.
 [[nodiscard]] std::string edges_text(const Grid& grid);
 /// The length or place with a remark where it was assumed.

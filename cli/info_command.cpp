@@ -58,10 +58,11 @@ Json field_json(const LoadedField& field, const FieldFacts& facts) {
           {"origin_from", name_of(field.origin_from)},
           {"spacing", field.grid.spacing},
           {"spacing_from", name_of(field.spacing_from)},
+          {"edges", edges_json(field.grid)},
           {"cells", facts.cells},
           {"lowest", facts.lowest ? Json(*facts.lowest) : Json()},
           {"highest", facts.highest ? Json(*facts.highest) : Json()},
-          {"fraction_volume", facts.fraction_sum * field.grid.cell_volume()},
+          {"fraction_volume", facts.fraction_volume},
           {"interfacial_cells", facts.interfacial},
           {"empty_cells", facts.empty},
           {"full_cells", facts.full},
@@ -92,7 +93,7 @@ void print_field(std::ostream& out, const Request& request, const LoadedField& f
   print_fact(out, "lowest fraction", number_or_none(facts.lowest));
   print_fact(out, "highest fraction", number_or_none(facts.highest));
   print_fact(out, "fraction volume",
-             rounded(facts.fraction_sum * field.grid.cell_volume(), 10) +
+             rounded(facts.fraction_volume, 10) +
                  "  (sum of fraction x cell volume, fractions clamped to [0, 1])");
   print_fact(out, "interfacial",
              count_of(facts.interfacial, "cell") + "  (" + tolerance + " < fraction < 1 - " +
@@ -237,7 +238,7 @@ void run(const Request& request) {
   }
   if (kind_of(request.input) == Kind::field) {
     const LoadedField field = load_field(request.input);
-    const FieldFacts facts = look_at_field(field.file.view(), request.purity_tolerance);
+    const FieldFacts facts = look_at_field(field.file.view(), field.grid, request.purity_tolerance);
     std::vector<std::string> warnings = field.file.warnings;
     const std::string doubt = scale_warning(request.input, field.file);
     warnings.insert(warnings.end(), doubt.empty() ? 0 : 1, doubt);

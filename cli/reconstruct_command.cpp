@@ -126,6 +126,7 @@ Json report_json(const Request& request, const LoadedField& field, const Reconst
                    {"origin_from", name_of(field.origin_from)},
                    {"spacing", field.grid.spacing},
                    {"spacing_from", name_of(field.spacing_from)},
+                   {"edges", edges_json(field.grid)},
                    {"cells", report.cells},
                    {"interfacial_cells", report.interfacial_cells},
                    {"clamped_cells", report.clamped_cells},

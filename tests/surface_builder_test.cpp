@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "difmesh/error.hpp"
+#include "difmesh/out_of_memory.hpp"
 #include "difmesh/reconstruct.hpp"
 #include "support/blocks.hpp"
 #include "support/fields.hpp"
@@ -324,6 +327,40 @@ TEST_CASE("builder: wrong calls are named and end it") {
         }) == error_of([&] { (void)reconstruct(bad.view(), grid); }));
   CHECK(error_of([&] { (void)ended.finish(); }) == "builder: an earlier call failed");
   CHECK(error_of([&] { ended.add(bad.view()); }) == "builder: an earlier call failed");
+}
+
+TEST_CASE("builder: more cells than memory are refused and not counted beyond 63 bits") {
+  constexpr std::int64_t kMany = std::int64_t{1} << 29;
+  const Grid grid{{kMany, kMany, 4}, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}};
+  const double one = 1.0;
+  BuilderOptions how;
+  how.layers_at_once = std::numeric_limits<std::int64_t>::max();
+  SurfaceBuilder builder(
+      grid, {}, [](const MeshPortion&) {}, how);
+  const FieldView slab(&one, ScalarType::float64, {kMany, kMany, 1}, {0, 0, 0});
+  CHECK_THROWS_AS(builder.add(slab), OutOfMemory);
+}
+
+TEST_CASE("builder: what the sink throws passes through and ends it") {
+  const OwnedField field = test::white_noise({6, 5, 40}, 2);
+  const Grid grid{field.dims, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}};
+  BuilderOptions how;
+  how.layers_at_once = 2;
+  int calls = 0;
+  SurfaceBuilder builder(
+      grid, {},
+      [&](const MeshPortion&) {
+        if (++calls == 2) {
+          throw std::runtime_error("the disk is full");
+        }
+      },
+      how);
+  builder.add(field.view().sub({0, 0, 0}, {6, 5, 8}));
+  CHECK_THROWS_WITH_AS(builder.add(field.view().sub({0, 0, 8}, {6, 5, 9})), "the disk is full",
+                       std::runtime_error);
+  CHECK(error_of([&] {
+          builder.add(field.view().sub({0, 0, 17}, {6, 5, 9}));
+        }) == "builder: an earlier call failed");
 }
 
 TEST_CASE("builder: fractions below all normal numbers add up as in the whole") {

@@ -81,7 +81,7 @@ AxisCells check_axis(std::size_t axis, const Block& block, const Grid& grid,
 
 // A table whose faces are uniform but for rounding stands for a uniform axis.
 Grid with_uniform_axes(const Grid& grid) {
-  constexpr double kRounding = 1e-14;
+  constexpr double kRounding = 1e-15;  // of the largest coordinate: some units in the last place
   Grid result = grid;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::vector<double>& faces = grid.faces[axis];

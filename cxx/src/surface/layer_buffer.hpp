@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <new>
 
 #include "difmesh/array.hpp"
 #include "difmesh/field_view.hpp"
@@ -21,10 +22,15 @@ class LayerBuffer {
   }
 
   /// Copies layers [from, from + count) of a slab behind those that are there. \pre all slabs have
-  /// the same size in x and y, and type
+  /// the same size in x and y, and type \throw std::bad_alloc
   void append(const FieldView& slab, std::int64_t from, std::int64_t count) {
     size_ = slab.dims;
     type_ = slab.type;
+    const double cells = static_cast<double>(layers_ + count) * static_cast<double>(size_[0]) *
+                         static_cast<double>(size_[1]);
+    if (cells > 0x1p56) {
+      throw std::bad_alloc();
+    }
     const std::size_t before = bytes_.size();
     bytes_.resize(before + static_cast<std::size_t>(count * layer_bytes()));
     std::byte* to = bytes_.data() + before;

@@ -45,7 +45,7 @@ class SurfaceBuilder::Work {
       size_[axis] = part_.ghost_low[axis] + part_.dims[axis] + part_.ghost_high[axis];
     }
     at_once_ = builder.layers_at_once > 0
-                   ? builder.layers_at_once
+                   ? std::min(builder.layers_at_once, size_[2])
                    : std::max(kLeastLayers, kCellsAtOnce / size_[0] / size_[1]);
     options_.edge_ids = true;
   }
