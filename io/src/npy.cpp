@@ -319,9 +319,11 @@ FieldFile read_npy(const std::filesystem::path& path, const ReadFieldOptions& op
   const NpyHeader header = read_header(file);
   FieldFile field;
   field.dims = dims_of(path, header);
+  // Refuses sizes whose products are beyond 63 bits.
+  RawCells raw = read_elements(file, path, header, field.dims);
   const auto [nx, ny, nz] = field.dims;
   field.strides = header.fortran_order ? Index3{nz * ny, nz, 1} : Index3{1, nx, nx * ny};
-  set_cells(path, read_elements(file, path, header, field.dims), options, field);
+  set_cells(path, std::move(raw), options, field);
   override_grid(options, field);
   return field;
 }
