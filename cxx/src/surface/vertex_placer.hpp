@@ -58,7 +58,10 @@ struct DualEdge {
 class VertexPlacer {
  public:
   VertexPlacer(const DualGrid& grid, const Options& options)
-      : grid_(grid), options_(options), placement_(placement_part(options.placement)) {
+      : grid_(grid),
+        options_(options),
+        placement_(placement_part(options.placement)),
+        is_stretched_(grid.field().is_stretched) {
     constexpr double kFar = std::numeric_limits<double>::infinity();
     for (std::size_t axis = 0; axis < 3; ++axis) {
       first_index_[axis] = static_cast<double>(grid.field().block.offset[axis] - 1);
@@ -83,7 +86,7 @@ class VertexPlacer {
                                        const UnitPlane& upper, EdgeCounts& counts) const {
     EdgePlane outer = oriented(edge, edge.upper_inside ? lower : upper);
     EdgePlane inner = oriented(edge, edge.upper_inside ? upper : lower);
-    if (grid_.field().is_stretched) {
+    if (is_stretched_) {
       outer.size = cell_size(edge.upper_inside ? edge.lower : edge.upper)[edge.axis];
       inner.size = cell_size(edge.upper_inside ? edge.upper : edge.lower)[edge.axis];
     }
@@ -106,10 +109,10 @@ class VertexPlacer {
   // The same for edges from a cell's centre to another's.
   [[nodiscard]] Vec3 position_between_cells(const Index3& lower, std::size_t axis,
                                             double share) const {
-    const Grid& grid = grid_.field().grid;
-    if (!grid.is_uniform(axis)) {
+    if (is_stretched_) {
       return position_between_nodes(lower, axis, share);
     }
+    const Grid& grid = grid_.field().grid;
     const double index = static_cast<double>(lower[axis]) + first_index_[axis];
     return at(lower, axis, grid.origin[axis] + (index + 0.5 + share) * grid.spacing[axis]);
   }
@@ -123,18 +126,15 @@ class VertexPlacer {
   // The same from the planes of the two cells.
   [[nodiscard]] Vec3 normal(const DualEdge& edge, const UnitPlane& lower, const UnitPlane& upper,
                             double share) const {
-    // Two normals that are opposite but for this share of them leave rounding and no direction.
-    constexpr double kCancelled = 1e-14;
-    Vec3 sum{0.0, 0.0, 0.0};
-    double total = add_normal(edge, edge.lower, lower, 1.0 - share, sum);
-    total += add_normal(edge, edge.upper, upper, share, sum);
-    const double length = std::hypot(sum[0], sum[1], sum[2]);
-    if (!(length > kCancelled * total)) {
-      sum = {0.0, 0.0, 0.0};
-      sum[edge.axis] = edge.upper_inside ? -1.0 : 1.0;
-      return sum;
-    }
-    return {sum[0] / length, sum[1] / length, sum[2] / length};
+    return normal(edge.axis, edge.upper_inside, {lower, cell_size(edge.lower)},
+                  {upper, cell_size(edge.upper)}, share);
+  }
+
+  // The same where all cells have one size.
+  [[nodiscard]] Vec3 uniform_normal(std::size_t axis, bool upper_inside, const UnitPlane& lower,
+                                    const UnitPlane& upper, double share) const {
+    const Vec3& spacing = grid_.field().grid.spacing;
+    return normal(axis, upper_inside, {lower, spacing}, {upper, spacing}, share);
   }
 
   // From the fractions of the two cells. \pre the placement is not by planes
@@ -286,13 +286,35 @@ class VertexPlacer {
     return traced;
   }
 
+  // A plane in a cell of a size.
+  struct CellPlane {
+    const UnitPlane& plane;
+    const Vec3& size;
+  };
+
+  [[nodiscard]] static Vec3 normal(std::size_t axis, bool upper_inside, const CellPlane& lower,
+                                   const CellPlane& upper, double share) {
+    // Two normals that are opposite but for this share of them leave rounding and no direction.
+    constexpr double kCancelled = 1e-14;
+    Vec3 sum{0.0, 0.0, 0.0};
+    double total = add_normal(axis, upper_inside, lower, 1.0 - share, sum);
+    total += add_normal(axis, upper_inside, upper, share, sum);
+    const double length = std::hypot(sum[0], sum[1], sum[2]);
+    if (!(length > kCancelled * total)) {
+      sum = {0.0, 0.0, 0.0};
+      sum[axis] = upper_inside ? -1.0 : 1.0;
+      return sum;
+    }
+    return {sum[0] / length, sum[1] / length, sum[2] / length};
+  }
+
   // Returns the length of what it adds.
-  double add_normal(const DualEdge& edge, const Index3& node, const UnitPlane& plane, double share,
-                    Vec3& sum) const {
-    const Vec3 spacing = cell_size(node);
-    const double weight = share * physical_weight(edge.axis, plane, spacing);
+  static double add_normal(std::size_t axis, bool upper_inside, const CellPlane& of, double share,
+                           Vec3& sum) {
+    const auto& [plane, spacing] = of;
+    const double weight = share * physical_weight(axis, plane, spacing);
     if (!plane.has_normal()) {
-      sum[edge.axis] += (edge.upper_inside ? -weight : weight) / spacing[edge.axis];
+      sum[axis] += (upper_inside ? -weight : weight) / spacing[axis];
       return weight > 0.0 ? share : 0.0;
     }
     for (std::size_t t = 0; t < 3; ++t) {
@@ -323,6 +345,7 @@ class VertexPlacer {
   const DualGrid& grid_;
   const Options& options_;
   const PlacementPart& placement_;
+  bool is_stretched_;
   Vec3 first_index_{};                         // of local index 0 in the whole grid
   std::array<std::vector<double>, 3> after_;   // the next number above each node's coordinate
   std::array<std::vector<double>, 3> before_;  // and below

@@ -243,8 +243,12 @@ class RowPlacer {
     writer_.write(vertex, edge.node, edge.axis,
                   placer_.position_between_cells(edge.node, edge.axis, share));
     if (writer_.with_normals()) {
-      writer_.write_normal(vertex, placer_.normal(dual_edge(edge), lower_plane(edge.bit),
-                                                  upper_plane(edge.axis, edge.bit), share));
+      const UnitPlane& lower = lower_plane(edge.bit);
+      const UnitPlane& upper = upper_plane(edge.axis, edge.bit);
+      writer_.write_normal(
+          vertex, grid_.field().is_stretched
+                      ? placer_.normal(dual_edge(edge), lower, upper, share)
+                      : placer_.uniform_normal(edge.axis, edge.upper_inside, lower, upper, share));
     }
   }
 

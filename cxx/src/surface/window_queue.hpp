@@ -90,8 +90,10 @@ class WindowQueue {
     counts_.solved += batch_.count;
     counts_.most_steps = std::max<std::int64_t>(counts_.most_steps, most_steps);
     for (int n = 0; writer_.with_normals() && n < batch_.count; ++n) {
-      writer_.write_normal(edges_[n].number, placer_.normal(edge_of(n), *batch_.lower[n],
-                                                            *batch_.upper[n], batch_.share[n]));
+      writer_.write_normal(
+          edges_[n].number,
+          placer_.uniform_normal(edges_[n].axis, batch_.sense[n] > 0.0, *batch_.lower[n],
+                                 *batch_.upper[n], batch_.share[n]));
     }
     batch_.count = 0;
   }
