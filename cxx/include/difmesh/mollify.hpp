@@ -21,8 +21,8 @@ struct MollifyOptions {
 /// Convolution of a field with the kernel (1 - r²/radius²)^4, r < radius, whose sum over the cells
 /// is made 1: what is done to fractions before they are contoured linearly or differentiated.
 /// - r counts cells, along each axis alike: with different spacings the kernel's support is an
-///   ellipsoid of `radius` spacings along each axis. Radius 2, as in E19 (options.hpp), reaches
-///   the 3 x 3 x 3 cells.
+///   ellipsoid of `radius` spacings along each axis; on stretched axes what is kept is the sum, not
+///   the volume. Radius 2, as in E19 (options.hpp), reaches the 3 x 3 x 3 cells.
 /// - Kept: constants, to the bit; fields that are linear in the cells' indices, but for cells
 ///   within a radius of a side that is not periodic; the sum over all cells, up to rounding, unless
 ///   a side is `empty` or `full`, through which material leaves or enters; [0,1].

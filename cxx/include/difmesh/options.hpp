@@ -22,8 +22,8 @@ enum class Placement : std::uint8_t {
 enum class Normals : std::uint8_t {
   youngs,  ///< weighted gradient on 3x3x3 cells
   myc,     ///< mixed Youngs-centred on 3x3x3 cells (Aulisa et al., J. Comput. Phys. 2007)
-  /// 3x3 columns of 9 cells where consistent, myc elsewhere; cells at open sides without consistent
-  /// columns get the plane that suits their neighbours' fractions best.
+  /// 3x3 columns of 9 cells where consistent, myc elsewhere; instead of it at open sides, and on
+  /// stretched axes everywhere, the plane that suits the neighbours' fractions best.
   height_function,
   /// The plane whose fractions in 3x3x3 cells differ least, in squares, from those there, among 27
   /// by differences of columns of 5 and myc's (after Pilliod & Puckett, J. Comput. Phys. 199 (2004)

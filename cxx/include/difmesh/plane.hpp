@@ -21,8 +21,8 @@ enum class NormalSource : std::uint8_t {
   youngs,  ///< weighted gradient
   centred_columns,  ///< centred differences of columns of three (MYC)
   height_function,  ///< differences of columns of nine
-  /// Fitted to the neighbours' fractions: elvira, lvira, and height_function where an open side
-  /// cuts the stencils short.
+  /// Fitted to the neighbours' fractions: elvira, lvira, and, where it has no columns,
+  /// height_function next to open sides and on stretched axes.
   least_squares,
 };
 
