@@ -142,14 +142,7 @@ void add_field_options(CLI::App& command, FieldInput& input) {
 }
 
 double least_edge(const Grid& grid) {
-  double least = std::numeric_limits<double>::max();
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    least = std::min(least, grid.width(axis, 0));
-    for (std::size_t n = 1; n < grid.faces[axis].size(); ++n) {
-      least = std::min(least, grid.faces[axis][n] - grid.faces[axis][n - 1]);
-    }
-  }
-  return least;
+  return std::min({grid.least_width(0), grid.least_width(1), grid.least_width(2)});
 }
 
 LoadedField load_field(const FieldInput& input) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <random>
 #include <string>
 #include <vector>
@@ -21,12 +20,14 @@
 #include "difmesh/shapes.hpp"
 #include "support/blocks.hpp"
 #include "support/differences.hpp"
+#include "support/errors.hpp"
 #include "support/fields.hpp"
 #include "support/near_pure.hpp"
 #include "support/reports.hpp"
 #include "support/slabs.hpp"
 
 using namespace difmesh;
+using difmesh::test::error_of;
 using difmesh::test::OwnedField;
 
 namespace {
@@ -127,15 +128,6 @@ bool ends_in_sliver(const OwnedField& field, const DualEdgeName& edge) {
     }
   }
   return false;
-}
-
-std::string error_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 }  // namespace

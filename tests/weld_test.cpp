@@ -11,6 +11,7 @@
 #include "difmesh/reconstruct.hpp"
 #include "placement/placement.hpp"
 #include "support/blocks.hpp"
+#include "support/errors.hpp"
 #include "support/fields.hpp"
 #include "support/near_pure.hpp"
 #include "support/reports.hpp"
@@ -35,12 +36,7 @@ void check_blocks(const OwnedField& field, const Index3& cut, Options options) {
 }
 
 std::string weld_error(const std::vector<Mesh>& meshes, const Grid& grid) {
-  try {
-    (void)weld(meshes, grid);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return test::error_of([&] { (void)weld(meshes, grid); });
 }
 
 }  // namespace

@@ -128,9 +128,10 @@ def set_faces(struct: Any, edges: Edges) -> None:
     tables = tuple(edges)
     if len(tables) != 3:
         raise ValueError(f"edges are three arrays or None, for x, y and z; got {len(tables)}")
-    kept = []
+    kept: list[npt.NDArray[np.float64] | None] = []
     for axis, cells, table in zip("xyz", struct.dims, tables):
         if table is None:
+            kept.append(None)
             continue
         faces = np.require(table, np.float64, ["A", "C"])
         if faces.shape != (cells + 1,):
@@ -139,8 +140,7 @@ def set_faces(struct: Any, edges: Edges) -> None:
             )
         setattr(struct, f"faces_{axis}", faces.ctypes.data)
         kept.append(faces)
-    struct._faces = kept
-    struct._edges = tables
+    struct._edges = tuple(kept)
 
 
 def axis_order(axes: str) -> slice:

@@ -35,6 +35,8 @@ struct Grid {
   }
   /// Width of the cells of an index; outside the grid, that of the nearest ones.
   [[nodiscard]] double width(std::size_t axis, std::int64_t index) const noexcept;
+  /// Of all cells along an axis. Cost: one look at each face.
+  [[nodiscard]] double least_width(std::size_t axis) const noexcept;
   /// Position of the centre of cell (i,j,k); defined for indices outside the grid as well, where
   /// cells are as wide as the nearest ones.
   [[nodiscard]] Vec3 cell_centre(const Index3& cell) const noexcept;

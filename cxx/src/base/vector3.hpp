@@ -22,6 +22,10 @@ namespace difmesh::detail {
 [[nodiscard]] inline Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
+/// Sum of the components' sizes.
+[[nodiscard]] inline double norm1(const Vec3& a) {
+  return std::abs(a[0]) + std::abs(a[1]) + std::abs(a[2]);
+}
 [[nodiscard]] inline double squared_length(const Vec3& a) {
   return dot(a, a);
 }

@@ -207,15 +207,22 @@ void classify_row(const BlockField& field, const RowClassifier<T>& classifier, c
   statistics.note_bad(ghosts.first_bad);
 }
 
+// The first of the block's own cells in a row, whose j and k are counted in the field view.
+template <class T>
+const T* own_cells(const BlockField& field, const Index3& start) {
+  const Index3& strides = field.view.strides;
+  return static_cast<const T*>(field.view.data) + field.block.ghost_low[0] * strides[0] +
+         start[1] * strides[1] + start[2] * strides[2];
+}
+
 // Of the fractions in the block's part of a row, on stretched axes.
 template <class T>
 double row_volume(const BlockField& field, const Index3& start) {
-  const FieldView& view = field.view;
-  const T* const row = static_cast<const T*>(view.data) + start[1] * view.strides[1] +
-                       start[2] * view.strides[2] + field.block.ghost_low[0] * view.strides[0];
+  const T* const row = own_cells<T>(field, start);
   double length = 0.0;
   for (std::int64_t i = 0; i < field.block.dims[0]; ++i) {
-    length += fraction_of(row[i * view.strides[0]]) * field.width(0, i + field.block.offset[0]);
+    length +=
+        fraction_of(row[i * field.view.strides[0]]) * field.width(0, i + field.block.offset[0]);
   }
   return length * field.width(1, start[1] + field.axes[1].low) *
          field.width(2, start[2] + field.axes[2].low);
@@ -393,10 +400,7 @@ ClassifiedNodes classify(const BlockField& field, const FieldLimits& limits, dou
       beyond.set_ends(j + 1, k + 1);
       nodes.summarise_row(j + 1, k + 1);
       result.row_ends[static_cast<std::size_t>(k * field.block.dims[1] + j)] =
-          interfacial_ends(static_cast<const T*>(field.view.data) +
-                               field.block.ghost_low[0] * field.view.strides[0] +
-                               start[1] * field.view.strides[1] + start[2] * field.view.strides[2],
-                           field.block.dims[0], field);
+          interfacial_ends(own_cells<T>(field, start), field.block.dims[0], field);
     };
     phases.run(weight, parts.count, parts.at_once, [&](std::int64_t begin, std::int64_t end) {
       Statistics& statistics = portions[static_cast<std::size_t>(begin / parts.at_once)];

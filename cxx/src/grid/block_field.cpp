@@ -79,7 +79,25 @@ AxisCells check_axis(std::size_t axis, const Block& block, const Grid& grid,
   return {count, offset - low, offset + dims + high, {boundary[2 * axis], boundary[2 * axis + 1]}};
 }
 
-// A table whose faces are uniform but for rounding stands for a uniform axis.
+}  // namespace
+
+double BlockField::fraction(const Index3& resolved) const {
+  bool full = false;
+  for (const std::int64_t index : resolved) {
+    if (index == kEmptyBeyond) {
+      return 0.0;
+    }
+    full = full || index == kFullBeyond;
+  }
+  if (full) {
+    return 1.0;
+  }
+  return with_scalar(view.type, [&](auto type) {
+    using T = decltype(type);
+    return fraction_of(static_cast<const T*>(view.data)[element(resolved)]);
+  });
+}
+
 Grid with_uniform_axes(const Grid& grid) {
   constexpr double kRounding = 1e-15;  // of the largest coordinate: some units in the last place
   Grid result = grid;
@@ -104,25 +122,6 @@ Grid with_uniform_axes(const Grid& grid) {
   return result;
 }
 
-}  // namespace
-
-double BlockField::fraction(const Index3& resolved) const {
-  bool full = false;
-  for (const std::int64_t index : resolved) {
-    if (index == kEmptyBeyond) {
-      return 0.0;
-    }
-    full = full || index == kFullBeyond;
-  }
-  if (full) {
-    return 1.0;
-  }
-  return with_scalar(view.type, [&](auto type) {
-    using T = decltype(type);
-    return fraction_of(static_cast<const T*>(view.data)[element(resolved)]);
-  });
-}
-
 void check_view(const FieldView& field) {
   if (field.data == nullptr) {
     fail("field: no data");
@@ -141,17 +140,13 @@ void check_block(const Block& block, const Grid& grid, const Options& options) {
 }
 
 double BlockField::width(std::size_t axis, std::int64_t index) const {
-  const std::int64_t count = axes[axis].count;
-  while (index < 0 || index >= count) {
-    const bool below = index < 0;
-    const Side side = boundary[2 * axis + (below ? 0 : 1)];
-    if (side == Side::periodic) {
-      index += below ? count : -count;
-    } else if (side == Side::mirror) {
-      index = below ? -1 - index : 2 * count - 1 - index;
-    } else {
+  const AxisCells& cells = axes[axis];
+  while (index < 0 || index >= cells.count) {
+    const std::int64_t nearer = cells.beyond(index);
+    if (!is_cell(nearer)) {
       break;
     }
+    index = nearer;
   }
   return grid.width(axis, index);
 }

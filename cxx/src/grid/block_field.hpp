@@ -33,24 +33,27 @@ struct AxisCells {
 
   /// The cell in memory that stands for any global index, or one of the constants above.
   [[nodiscard]] std::int64_t resolve(std::int64_t index) const {
-    while (index < low || index >= high) {
-      const bool below = index < 0;
-      switch (boundary[below ? 0 : 1]) {
-        case Side::open:
-          return kMissing;
-        case Side::empty:
-          return kEmptyBeyond;
-        case Side::full:
-          return kFullBeyond;
-        case Side::mirror:
-          index = below ? -1 - index : 2 * count - 1 - index;
-          break;
-        case Side::periodic:
-          index += below ? count : -count;
-          break;
-      }
+    while ((index < low || index >= high) && is_cell(index)) {
+      index = beyond(index);
     }
     return index;
+  }
+  /// What stands for a cell beyond a side: one nearer to the domain, or one of the constants.
+  [[nodiscard]] std::int64_t beyond(std::int64_t index) const {
+    const bool below = index < 0;
+    switch (boundary[below ? 0 : 1]) {
+      case Side::open:
+        return kMissing;
+      case Side::empty:
+        return kEmptyBeyond;
+      case Side::full:
+        break;
+      case Side::mirror:
+        return below ? -1 - index : 2 * count - 1 - index;
+      case Side::periodic:
+        return index + (below ? count : -count);
+    }
+    return kFullBeyond;
   }
 };
 
@@ -105,6 +108,8 @@ struct BlockField {
   }
 };
 
+/// The grid with axes whose tables of faces are uniform but for rounding made uniform.
+[[nodiscard]] Grid with_uniform_axes(const Grid& grid);
 /// Checks that a field is there and has a known type. \throw Error
 void check_view(const FieldView& field);
 /// Checks block, grid and options against each other. \throw Error

@@ -104,6 +104,14 @@ double Grid::width(std::size_t axis, std::int64_t index) const noexcept {
   return faces[axis][n + 1] - faces[axis][n];
 }
 
+double Grid::least_width(std::size_t axis) const noexcept {
+  double least = width(axis, 0);
+  for (std::size_t n = 1; n < faces[axis].size(); ++n) {
+    least = std::min(least, faces[axis][n] - faces[axis][n - 1]);
+  }
+  return least;
+}
+
 Vec3 Grid::cell_centre(const Index3& cell) const noexcept {
   Vec3 centre;
   for (std::size_t a = 0; a < 3; ++a) {

@@ -5,52 +5,21 @@
 #include <cstddef>
 #include <limits>
 
+#include "planes/cells_around.hpp"
 #include "planes/cube_fraction.hpp"
 #include "planes/plane_fit.hpp"
 
 namespace difmesh::detail {
 namespace {
 
-// Two cells on each side: a plane whose normal is steepest along the column and that crosses the
-// centre's cell leaves the centre's column by no more, nor the nearer ones of its neighbours'. With
-// the three cells of the method in two dimensions not all planes in three would be found.
-constexpr std::int64_t kReach = 2;
-
-/// The cell at so many steps from another, for all axes, as indices in memory or what stands beyond
-/// the sides.
-class Surroundings {
- public:
-  Surroundings(const BlockField& field, const Index3& cell) : field_(field) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      for (std::int64_t step = -kReach; step <= kReach; ++step) {
-        resolved_[axis][static_cast<std::size_t>(step + kReach)] =
-            field.axes[axis].resolve(cell[axis] + step);
-      }
-    }
-  }
-  [[nodiscard]] bool is_there(std::size_t axis, std::int64_t step) const {
-    return at(axis, step) != kMissing;
-  }
-  /// \pre is_there() along all axes
-  [[nodiscard]] double fraction(const Index3& steps) const {
-    return field_.fraction({at(0, steps[0]), at(1, steps[1]), at(2, steps[2])});
-  }
-
- private:
-  [[nodiscard]] std::int64_t at(std::size_t axis, std::int64_t step) const {
-    return resolved_[axis][static_cast<std::size_t>(step + kReach)];
-  }
-  const BlockField& field_;
-  std::array<std::array<std::int64_t, 2 * kReach + 1>, 3> resolved_;
-};
+using Surroundings = CellsAround<kElviraReach>;
 
 NeighbourFractions neighbours_in(const Surroundings& around) {
   NeighbourFractions hood;
   for (int k = 0; k < 3; ++k) {
     for (int j = 0; j < 3; ++j) {
       for (int i = 0; i < 3; ++i) {
-        const bool is_there =
-            around.is_there(0, i - 1) && around.is_there(1, j - 1) && around.is_there(2, k - 1);
+        const bool is_there = around.is_there({i - 1, j - 1, k - 1});
         hood.is_there[k][j][i] = is_there;
         hood.fraction[k][j][i] = is_there ? around.fraction({i - 1, j - 1, k - 1}) : 0.0;
       }
@@ -83,7 +52,7 @@ double misfit(const NeighbourFractions& hood, const Vec3& m, double bound) {
 
 double column(const Surroundings& around, std::size_t axis, Index3 foot) {
   double sum = 0.0;
-  for (std::int64_t step = -kReach; step <= kReach; ++step) {
+  for (std::int64_t step = -kElviraReach; step <= kElviraReach; ++step) {
     foot[axis] = step;
     sum += around.is_there(axis, step) ? around.fraction(foot) : 0.0;
   }

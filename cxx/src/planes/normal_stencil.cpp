@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "base/vector3.hpp"
 #include "planes/column_rule.hpp"
 #include "planes/fitted_normals.hpp"
 #include "planes/normal_math.hpp"
@@ -16,10 +17,6 @@ namespace {
 
 using baseline::kTie;
 
-double norm1(const Vec3& v) {
-  return std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]);
-}
-
 Vec3 to_vec3(const baseline::Triple<double>& triple) {
   return {triple.v[0], triple.v[1], triple.v[2]};
 }
@@ -31,6 +28,19 @@ void scale(Vec3& v, double factor) {
 }
 
 }  // namespace
+
+bool is_consistent(const FractionColumn& column, int count, double least_full, double most_empty) {
+  const auto place = [](double fraction) { return std::bit_cast<std::int64_t>(fraction); };
+  baseline::ColumnCheck<std::int64_t> check;
+  for (int n = 0; n < count; ++n) {
+    check.add(n, baseline::filled(place(column[n]), place(least_full), place(most_empty)));
+    if (check.wrong < 0) {
+      return false;
+    }
+  }
+  check.end();
+  return check.wrong >= 0;
+}
 
 template <class T>
 NormalStencil<T>::NormalStencil(const BlockField& field, Normals normals)
@@ -246,17 +256,11 @@ bool NormalStencil<T>::add_heights(const Index3& cell, std::size_t axis, double 
 // Of nine cells, or what the domain has of them, from the material's end on.
 template <class T>
 bool NormalStencil<T>::is_column(const Column& column, int count, double& height) const {
-  const auto place = [](double fraction) { return std::bit_cast<std::int64_t>(fraction); };
-  baseline::ColumnCheck<std::int64_t> check;
-  for (int n = 0; n < count; ++n) {
-    check.add(n, baseline::filled(place(column[n]), place(full_), place(empty_)));
-    if (check.wrong < 0) {
-      return false;
-    }
+  if (!is_consistent(column, count, full_, empty_)) {
+    return false;
   }
-  check.end();
   height = baseline::height_of(column);
-  return check.wrong >= 0;
+  return true;
 }
 
 template <class T>

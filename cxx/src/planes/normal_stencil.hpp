@@ -16,6 +16,12 @@ struct UnitNormal {
   NormalSource source = NormalSource::none;
 };
 
+/// Cells on each side of the middle one in a column of ELVIRA: a plane whose normal is steepest
+/// along the column and that crosses the centre's cell leaves the centre's column by no more, nor
+/// the nearer ones of its neighbours'. With the three cells of the method in two dimensions not all
+/// planes in three would be found.
+inline constexpr std::int64_t kElviraReach = 2;
+
 /// Layers of cells around a cell that its normal depends on.
 [[nodiscard]] constexpr std::int64_t stencil_reach(Normals normals) {
   switch (normals) {
@@ -26,10 +32,17 @@ struct UnitNormal {
     case Normals::height_function:
       return kColumnReach;
     case Normals::elvira:
-      return 2;
+      return kElviraReach;
   }
   return 1;
 }
+
+/// Fractions of a column of heights, or of what the domain has of one.
+using FractionColumn = double[2 * kColumnReach + 1];
+
+/// The rule of column_rule.hpp for the first `count` cells, which stand from the material's end on.
+[[nodiscard]] bool is_consistent(const FractionColumn& column, int count, double least_full,
+                                 double most_empty);
 
 /// Estimates normals of cells of one field. Thread safety: const calls are safe.
 template <class T>
@@ -66,7 +79,7 @@ class NormalStencil {
   [[nodiscard]] bool column_at_side(const SideColumns& columns, std::size_t axis, int u, int v,
                                     double& height) const;
   // Fractions from the material's end, zeros behind the last.
-  using Column = double[2 * kColumnReach + 1];
+  using Column = FractionColumn;
   [[nodiscard]] bool is_column(const Column& column, int count, double& height) const;
 
   const BlockField& field_;

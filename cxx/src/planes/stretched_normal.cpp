@@ -4,42 +4,29 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <optional>
-#include <vector>
 
+#include "base/vector3.hpp"
+#include "planes/cells_around.hpp"
 #include "planes/cube_fraction.hpp"
 #include "planes/fitted_normals.hpp"
+#include "planes/normal_math.hpp"
 
 namespace difmesh::detail {
 namespace {
 
-// Cells on each side of the centre in a column of heights, and in one of ELVIRA.
-constexpr std::int64_t kReach = 4;
-constexpr std::int64_t kShortReach = 2;
-// Below this, in fractions per cell, a gradient is rounding; above 1 - this, a share is a tie.
-constexpr double kTie = 1e-12;
+using baseline::kTie;
 
-double norm1(const Vec3& v) {
-  return std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]);
-}
-
-Vec3 scaled(const Vec3& v, double factor) {
-  return {v[0] * factor, v[1] * factor, v[2] * factor};
-}
-
-/// The cells around one: where they are in memory, how wide they are, and where their centres lie
-/// from its own.
-class Surroundings {
+/// The cells around one: how wide they are, and where their centres lie from its own.
+class Surroundings : public CellsAround<kColumnReach> {
  public:
-  Surroundings(const BlockField& field, const Index3& cell) : field_(field) {
+  Surroundings(const BlockField& field, const Index3& cell)
+      : CellsAround(field, cell), purity_tolerance_(field.purity_tolerance) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      for (std::int64_t step = -kReach; step <= kReach; ++step) {
-        Place& place = at(axis, step);
-        place.resolved = field.axes[axis].resolve(cell[axis] + step);
-        place.width = field.width(axis, cell[axis] + step);
+      for (std::int64_t step = -kColumnReach; step <= kColumnReach; ++step) {
+        at(axis, step).width = field.width(axis, cell[axis] + step);
       }
-      for (std::int64_t step = 1; step <= kReach; ++step) {
+      for (std::int64_t step = 1; step <= kColumnReach; ++step) {
         at(axis, step).centre =
             at(axis, step - 1).centre + 0.5 * (at(axis, step - 1).width + at(axis, step).width);
         at(axis, -step).centre =
@@ -48,44 +35,26 @@ class Surroundings {
     }
   }
 
-  [[nodiscard]] bool is_there(std::size_t axis, std::int64_t step) const {
-    return at(axis, step).resolved != kMissing;
-  }
-  [[nodiscard]] bool is_there(const Index3& steps) const {
-    return is_there(0, steps[0]) && is_there(1, steps[1]) && is_there(2, steps[2]);
-  }
-  /// \pre is_there(steps)
-  [[nodiscard]] double fraction(const Index3& steps) const {
-    return field_.fraction(
-        {at(0, steps[0]).resolved, at(1, steps[1]).resolved, at(2, steps[2]).resolved});
-  }
   [[nodiscard]] double width(std::size_t axis, std::int64_t step) const {
-    return at(axis, step).width;
+    return extents_[axis][static_cast<std::size_t>(step + kColumnReach)].width;
   }
   [[nodiscard]] double centre(std::size_t axis, std::int64_t step) const {
-    return at(axis, step).centre;
+    return extents_[axis][static_cast<std::size_t>(step + kColumnReach)].centre;
   }
   /// Sizes of the cell itself.
   [[nodiscard]] Vec3 size() const { return {width(0, 0), width(1, 0), width(2, 0)}; }
-  [[nodiscard]] bool is_interfacial(double fraction) const {
-    return field_.is_interfacial(fraction);
-  }
-  [[nodiscard]] double purity_tolerance() const { return field_.purity_tolerance; }
+  [[nodiscard]] double purity_tolerance() const { return purity_tolerance_; }
 
  private:
-  struct Place {
-    std::int64_t resolved = kMissing;
+  struct Extent {
     double width = 0.0;
     double centre = 0.0;
   };
-  [[nodiscard]] Place& at(std::size_t axis, std::int64_t step) {
-    return places_[axis][static_cast<std::size_t>(step + kReach)];
+  [[nodiscard]] Extent& at(std::size_t axis, std::int64_t step) {
+    return extents_[axis][static_cast<std::size_t>(step + kColumnReach)];
   }
-  [[nodiscard]] const Place& at(std::size_t axis, std::int64_t step) const {
-    return places_[axis][static_cast<std::size_t>(step + kReach)];
-  }
-  const BlockField& field_;
-  std::array<std::array<Place, 2 * kReach + 1>, 3> places_;
+  double purity_tolerance_;
+  std::array<std::array<Extent, 2 * kColumnReach + 1>, 3> extents_;
 };
 
 /// A normal in space as one in the unit cube, |.|₁ = 1; zero stays zero.
@@ -242,32 +211,26 @@ UnitNormal mixed(const Surroundings& around, const Vec3& m) {
   return {scaled(sum, 1.0 / size), NormalSource::centred_columns};
 }
 
-/// Full cells, then interfacial ones, then empty ones, from the material's end; one at least full
-/// and one empty.
-bool is_consistent(const Surroundings& around, std::size_t axis, double sense, Index3 foot) {
+/// Whether a column has a height. Where its last cell is all but pure next to an interfacial one,
+/// the surface may go on behind it.
+bool has_height(const Surroundings& around, std::size_t axis, double sense, Index3 foot) {
   const double full = 1.0 - around.purity_tolerance();
   const double empty = around.purity_tolerance();
-  std::array<double, 2 * kReach + 1> column{};
-  std::size_t count = 0;
-  for (std::int64_t n = -kReach; n <= kReach; ++n) {
+  FractionColumn column{};
+  int count = 0;
+  for (std::int64_t n = -kColumnReach; n <= kColumnReach; ++n) {
     const std::int64_t step = sense > 0.0 ? n : -n;
     if (around.is_there(axis, step)) {
       foot[axis] = step;
       column[count++] = around.fraction(foot);
     }
   }
-  for (std::size_t n = 1; n < count; ++n) {
-    if ((column[n] >= full && !(column[n - 1] >= full)) ||
-        (column[n] > empty && !(column[n - 1] > empty))) {
-      return false;
-    }
+  if (count < 2 || !is_consistent(column, count, full, empty)) {
+    return false;
   }
-  // Where the last cell is all but pure next to an interfacial one, the surface may go on behind
-  // it.
-  const double last = column[count - 1];
-  const bool ends_full = column[0] == 1.0 || (column[0] >= full && column[1] >= full);
-  const bool ends_empty = last == 0.0 || (last <= empty && column[count - 2] <= empty);
-  return count > 1 && ends_full && ends_empty;
+  const bool ends_full = column[0] == 1.0 || column[1] >= full;
+  const bool ends_empty = column[count - 1] == 0.0 || column[count - 2] <= empty;
+  return ends_full && ends_empty;
 }
 
 /// From the heights along one axis, if all columns that there are agree.
@@ -280,15 +243,14 @@ std::optional<Vec3> from_heights(const Surroundings& around, std::size_t axis, d
         Index3 foot{0, 0, 0};
         foot[other] = u;
         foot[third] = v;
-        if (!is_consistent(around, axis, sense, foot)) {
+        if (!has_height(around, axis, sense, foot)) {
           return std::nullopt;
         }
       }
     }
   }
-
-  const Slopes along_other(around, other, heights(around, axis, other, kReach));
-  const Slopes along_third(around, third, heights(around, axis, third, kReach));
+  const Slopes along_other(around, other, heights(around, axis, other, kColumnReach));
+  const Slopes along_third(around, third, heights(around, axis, third, kColumnReach));
   return in_unit_cube(normal_of(axis, sense, along_other.best, along_third.best), around.size());
 }
 
@@ -345,14 +307,8 @@ class Neighbours {
   std::array<Neighbour, 26> list_;
 };
 
-Vec3 unit(const Vec3& v) {
-  return scaled(v, 1.0 / std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
-}
-
 Vec3 turned(const Vec3& m, const std::array<Vec3, 2>& across, double by0, double by1) {
-  return unit({m[0] + by0 * across[0][0] + by1 * across[1][0],
-               m[1] + by0 * across[0][1] + by1 * across[1][1],
-               m[2] + by0 * across[0][2] + by1 * across[1][2]});
+  return unit(plus(plus(m, scaled(across[0], by0)), scaled(across[1], by1)));
 }
 
 std::array<Vec3, 2> directions_across(const Vec3& m) {
@@ -366,9 +322,7 @@ std::array<Vec3, 2> directions_across(const Vec3& m) {
   first[next] = m[third];
   first[third] = -m[next];
   first = unit(first);
-  return {first,
-          {m[1] * first[2] - m[2] * first[1], m[2] * first[0] - m[0] * first[2],
-           m[0] * first[1] - m[1] * first[0]}};
+  return {first, cross(m, first)};
 }
 
 /// The turns about the two directions that the residuals' derivatives promise to be best.
@@ -453,8 +407,8 @@ Vec3 best_of_columns(const Surroundings& around, const Neighbours& neighbours, c
     }
     const std::size_t other = (axis + 1) % 3;
     const std::size_t third = (axis + 2) % 3;
-    const Slopes along_other(around, other, heights(around, axis, other, kShortReach));
-    const Slopes along_third(around, third, heights(around, axis, third, kShortReach));
+    const Slopes along_other(around, other, heights(around, axis, other, kElviraReach));
+    const Slopes along_third(around, third, heights(around, axis, third, kElviraReach));
     const auto all = [](const Slopes& slopes) {
       return std::array<double, 3>{slopes.backward.value_or(slopes.best), slopes.best,
                                    slopes.forward.value_or(slopes.best)};

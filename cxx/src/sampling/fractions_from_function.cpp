@@ -57,11 +57,8 @@ double rounding_of(const Grid& grid) {
   double largest = 1.0;
   for (std::size_t a = 0; a < 3; ++a) {
     const double high = grid.face(a, grid.dims[a]);
-    double width = grid.width(a, 0);
-    for (std::size_t n = 1; n < grid.faces[a].size(); ++n) {
-      width = std::min(width, grid.faces[a][n] - grid.faces[a][n - 1]);
-    }
-    largest = std::max(largest, std::max(std::abs(grid.face(a, 0)), std::abs(high)) / width);
+    largest = std::max(largest,
+                       std::max(std::abs(grid.face(a, 0)), std::abs(high)) / grid.least_width(a));
   }
   return 8.0 * std::numeric_limits<double>::epsilon() * largest;
 }

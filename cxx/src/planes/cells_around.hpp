@@ -1,0 +1,45 @@
+#pragma once
+// The cells around one, wherever they lie.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "grid/block_field.hpp"
+
+namespace difmesh::detail {
+
+/// The cells at up to kReach steps from one along all axes, by their indices in memory or what
+/// stands beyond the sides.
+template <std::int64_t kReach>
+class CellsAround {
+ public:
+  CellsAround(const BlockField& field, const Index3& cell) : field_(field) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (std::int64_t step = -kReach; step <= kReach; ++step) {
+        resolved_[axis][static_cast<std::size_t>(step + kReach)] =
+            field.axes[axis].resolve(cell[axis] + step);
+      }
+    }
+  }
+  [[nodiscard]] bool is_there(std::size_t axis, std::int64_t step) const {
+    return at(axis, step) != kMissing;
+  }
+  /// Along all axes.
+  [[nodiscard]] bool is_there(const Index3& steps) const {
+    return is_there(0, steps[0]) && is_there(1, steps[1]) && is_there(2, steps[2]);
+  }
+  /// \pre is_there(steps)
+  [[nodiscard]] double fraction(const Index3& steps) const {
+    return field_.fraction({at(0, steps[0]), at(1, steps[1]), at(2, steps[2])});
+  }
+
+ private:
+  [[nodiscard]] std::int64_t at(std::size_t axis, std::int64_t step) const {
+    return resolved_[axis][static_cast<std::size_t>(step + kReach)];
+  }
+  const BlockField& field_;
+  std::array<std::array<std::int64_t, std::size_t{2 * kReach + 1}>, 3> resolved_;
+};
+
+}  // namespace difmesh::detail
