@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <random>
 #include <stdexcept>
@@ -15,12 +14,14 @@
 #include "difmesh/out_of_memory.hpp"
 #include "difmesh/reconstruct.hpp"
 #include "support/blocks.hpp"
+#include "support/errors.hpp"
 #include "support/fields.hpp"
 #include "support/near_pure.hpp"
 #include "support/reports.hpp"
 #include "support/slabs.hpp"
 
 using namespace difmesh;
+using difmesh::test::error_of;
 using difmesh::test::OwnedField;
 
 namespace {
@@ -56,15 +57,6 @@ Options with_sides(Side x, Side y, Side z_low, Side z_high) {
   Options options;
   options.boundary = {x, x, y, y, z_low, z_high};
   return options;
-}
-
-std::string error_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 }  // namespace
@@ -204,6 +196,22 @@ TEST_CASE("builder: what is final comes early") {
     CHECK(top > static_cast<double>(k + 1 - kGhostLayers - how.layers_at_once) - 1.0);
   }
   CHECK(builder.finish().cells == 6000);
+}
+
+TEST_CASE("builder: a table of faces that counts as uniform changes no bit of the report") {
+  for (const std::int64_t layers : {37, 38, 39}) {
+    OwnedField field({3, 3, layers});
+    field.at(1, 1, 1) = 0.7;
+    Grid grid{field.dims, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}};
+    for (std::int64_t n = 0; n <= layers; ++n) {
+      grid.faces[2].push_back(-1.7 + static_cast<double>(n) * 0.1);
+    }
+    const Options options = with_sides(Side::empty, Side::empty, Side::empty, Side::empty);
+    const Reconstruction whole = reconstruct(field.view(), grid, options);
+    REQUIRE(whole.report.enclosed_volume > 0.0);
+    CHECK(test::difference(test::in_slabs(field.view(), grid, options, 4).report, whole.report) ==
+          "");
+  }
 }
 
 TEST_CASE("builder: layouts and types") {

@@ -34,12 +34,12 @@ constexpr std::int64_t kAround = 2 * kGhostLayers;
 class SurfaceBuilder::Work {
  public:
   Work(const Grid& grid, const Options& options, MeshSink sink, const BuilderOptions& builder)
-      : grid_(grid),
+      : grid_(detail::with_uniform_axes(grid)),
         options_(options),
         part_(builder.part.value_or(Block{{0, 0, 0}, grid.dims, {0, 0, 0}, {0, 0, 0}})),
         is_whole_(!builder.part),
         seam_(grid.dims, options.edge_ids, std::move(sink)),
-        sums_(grid) {
+        sums_(grid_) {
     detail::check_block(part_, grid, options);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       size_[axis] = part_.ghost_low[axis] + part_.dims[axis] + part_.ghost_high[axis];
