@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <new>
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "difmesh/error.hpp"
@@ -337,6 +339,20 @@ TEST_CASE("builder: wrong calls are named and end it") {
   CHECK(error_of([&] { ended.add(bad.view()); }) == "builder: an earlier call failed");
 }
 
+TEST_CASE("builder: one that was moved from says so") {
+  const OwnedField field = test::white_noise({6, 5, 20}, 2);
+  const Grid grid{field.dims, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}};
+  SurfaceBuilder first(grid, {}, [](const MeshPortion&) {});
+  first.add(field.view().sub({0, 0, 0}, {6, 5, 12}));
+  SurfaceBuilder second = std::move(first);
+  CHECK(second.missing_layers() == 8);
+  CHECK(first.missing_layers() == 0);  // NOLINT(bugprone-use-after-move)
+  CHECK(error_of([&] { first.add(field.view()); }) == "builder: it was moved to another one");
+  CHECK(error_of([&] { (void)first.finish(); }) == "builder: it was moved to another one");
+  second.add(field.view().sub({0, 0, 12}, {6, 5, 8}));
+  CHECK(second.finish().cells == 600);
+}
+
 TEST_CASE("builder: more cells than memory are refused and not counted beyond 63 bits") {
   constexpr std::int64_t kMany = std::int64_t{1} << 29;
   const Grid grid{{kMany, kMany, 4}, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}};
@@ -369,6 +385,21 @@ TEST_CASE("builder: what the sink throws passes through and ends it") {
   CHECK(error_of([&] {
           builder.add(field.view().sub({0, 0, 17}, {6, 5, 9}));
         }) == "builder: an earlier call failed");
+}
+
+TEST_CASE("builder: a sink that runs out of memory is not taken for the builder") {
+  const OwnedField field = test::white_noise({6, 5, 12}, 2);
+  const Grid grid{field.dims, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}};
+  SurfaceBuilder builder(grid, {}, [](const MeshPortion&) { throw std::bad_alloc(); });
+  bool is_the_builders = false;
+  try {
+    builder.add(field.view());
+    FAIL("nothing was thrown");
+  } catch (const OutOfMemory&) {
+    is_the_builders = true;
+  } catch (const std::bad_alloc&) {
+  }
+  CHECK_FALSE(is_the_builders);
 }
 
 TEST_CASE("builder: fractions below all normal numbers add up as in the whole") {

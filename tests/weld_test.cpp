@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -248,6 +249,8 @@ TEST_CASE("weld: scalars come along where all meshes have them") {
   meshes[2].scalars[1].name = "id";
   meshes[2].scalars[1].values.pop_back();
   CHECK(weld_error(meshes, grid) == "weld: mesh 2 has 'id' for some vertices only");
+  meshes[0].scalars[0].name = "id";
+  CHECK(weld_error(meshes, grid) == "weld: mesh 0 has two scalars 'id'");
 }
 
 TEST_CASE("weld: missing ghosts are named") {
@@ -261,6 +264,20 @@ TEST_CASE("weld: missing ghosts are named") {
     message = error.what();
   }
   CHECK(message == "block: in x: 4 and 3 ghost layers are given; 4 and 5 are needed");
+}
+
+TEST_CASE("weld: ghosts beyond 64 bits are named") {
+  const double one = 1.0;
+  const Grid grid{{20, 8, 8}, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}};
+  Options options;
+  options.boundary[0] = options.boundary[1] = Side::periodic;
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  for (const std::int64_t ghosts : {kMost, kMost - 5, kMost - 30, (std::int64_t{1} << 60) + 1}) {
+    const Block block{{0, 0, 0}, {20, 8, 8}, {5, 0, 0}, {ghosts, 0, 0}};
+    const FieldView view(&one, ScalarType::float64, {25 + (ghosts >> 1), 8, 8}, {0, 0, 0});
+    CHECK(test::error_of([&] { (void)reconstruct_block(view, block, grid, options); }) ==
+          "block: in x: more than 2^60 ghost layers");
+  }
 }
 
 TEST_CASE("weld: bad meshes are named") {

@@ -48,15 +48,17 @@ class SurfaceBuilder {
   ///   sink
   SurfaceBuilder(const Grid& grid, const Options& options, MeshSink sink,
                  const BuilderOptions& builder = {});
+  /// A builder that was moved from has no missing layers and throws invalid_argument when used.
   SurfaceBuilder(SurfaceBuilder&& other) noexcept;
   SurfaceBuilder& operator=(SurfaceBuilder&& other) noexcept;
   ~SurfaceBuilder();
 
   /// Takes the next slab: all cells of the grid, or of the part with its ghosts, in x and y, and
   /// one or more layers in z, in any layout; all slabs have the same element type.
-  /// \throw Error as reconstruct(): invalid_argument, invalid_value, too_large, cancelled;
-  ///   OutOfMemory; what the sink throws. The builder takes nothing more after that: what the sink
-  ///   has is the beginning of the surface.
+  /// \throw Error invalid_argument if the slab does not fit: it is not taken, another one may be;
+  ///   else as reconstruct(): invalid_value, too_large, cancelled; OutOfMemory; what the sink
+  ///   throws. The builder takes nothing more after those: what the sink has is the beginning of
+  ///   the surface.
   /// Cost: as reconstruct() of these layers.
   void add(const FieldView& slab);
 

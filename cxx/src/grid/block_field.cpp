@@ -73,6 +73,11 @@ AxisCells check_axis(std::size_t axis, const Block& block, const Grid& grid,
          " ghost layers are given; " + std::to_string(below) + " and " + std::to_string(above) +
          " are needed");
   }
+  // Sums of cells and ghosts stay far from the ends of 64 bits.
+  constexpr std::int64_t kMostGhosts = std::int64_t{1} << 60;
+  if (periodic && (low > kMostGhosts || high > kMostGhosts)) {
+    fail(where + ": more than 2^60 ghost layers");
+  }
   if (!periodic && (low > offset || high > count - offset - dims)) {
     fail(where + ": ghost layers reach beyond the grid");
   }

@@ -38,7 +38,8 @@ class SurfaceBuilder::Work {
         options_(options),
         part_(builder.part.value_or(Block{{0, 0, 0}, grid.dims, {0, 0, 0}, {0, 0, 0}})),
         is_whole_(!builder.part),
-        seam_(grid.dims, options.edge_ids, std::move(sink)),
+        sink_(std::move(sink)),
+        seam_(grid.dims, options.edge_ids, [this](const MeshPortion& portion) { give(portion); }),
         sums_(grid_) {
     detail::check_block(part_, grid, options);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -63,6 +64,9 @@ class SurfaceBuilder::Work {
     } catch (const OutOfMemory&) {
       throw;
     } catch (const std::bad_alloc&) {
+      if (in_sink_) {
+        throw;
+      }
       throw OutOfMemory("builder: out of memory for " + std::to_string(size_[0]) + " x " +
                         std::to_string(size_[1]) + " x " + std::to_string(slab.dims[2]) +
                         " cells and those that wait");
@@ -88,6 +92,13 @@ class SurfaceBuilder::Work {
   }
 
  private:
+  // What the sink throws is not the builder's.
+  void give(const MeshPortion& portion) {
+    in_sink_ = true;
+    sink_(portion);
+    in_sink_ = false;
+  }
+
   void check(const FieldView& slab) {
     if (failed_) {
       fail("an earlier call failed");
@@ -178,6 +189,8 @@ class SurfaceBuilder::Work {
   Options options_;
   Block part_;
   bool is_whole_;
+  MeshSink sink_;
+  bool in_sink_ = false;
   detail::Seam seam_;
   detail::PartSums sums_;
   detail::LayerBuffer buffer_;
@@ -207,16 +220,22 @@ SurfaceBuilder::~SurfaceBuilder() = default;
 
 void SurfaceBuilder::add(const FieldView& slab) {
   const DefaultFloatEnvironment environment;
+  if (!work_) {
+    fail("it was moved to another one");
+  }
   work_->add(slab);
 }
 
 Report SurfaceBuilder::finish() {
   const DefaultFloatEnvironment environment;
+  if (!work_) {
+    fail("it was moved to another one");
+  }
   return work_->finish();
 }
 
 std::int64_t SurfaceBuilder::missing_layers() const noexcept {
-  return work_->missing();
+  return work_ ? work_->missing() : 0;
 }
 
 }  // namespace difmesh

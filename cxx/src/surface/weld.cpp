@@ -37,6 +37,11 @@ void check_scalars(std::span<const Mesh* const> meshes, std::size_t first, std::
     fail(m, "differs from mesh " + std::to_string(first) + " in its scalars");
   }
   for (const VertexScalar& scalar : meshes[first]->scalars) {
+    const auto has_name = [&](const VertexScalar& s) { return s.name == scalar.name; };
+    const std::vector<VertexScalar>& own = meshes[m]->scalars;
+    if (std::count_if(own.begin(), own.end(), has_name) > 1) {
+      fail(m, "has two scalars '" + printable(scalar.name) + "'");
+    }
     const Array<double>* const values = find_scalar(*meshes[m], scalar.name);
     if (values == nullptr) {
       fail(m, "has no scalar '" + printable(scalar.name) + "', which mesh " +
