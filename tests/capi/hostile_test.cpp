@@ -8,6 +8,7 @@
 #include <fstream>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <string>
 #include <vector>
@@ -67,6 +68,13 @@ struct Bench {
     dif_field field{};
     REQUIRE(dif_field_init(&field, sizeof field, values.data(), DIF_INT16, dims) == DIF_OK);
     return field;
+  }
+
+  // Faces 0, 1, 2, third, 4, ...
+  const double* faces(double third) {
+    std::iota(numbers.begin(), numbers.end(), 0.0);
+    numbers[3] = third;
+    return numbers.data();
   }
 
   Bench() {
@@ -185,6 +193,12 @@ std::vector<Case> field_cases() {
       CHANGED(f, field.spacing[1] = 1e91, kGrid, reconstruct),
       CHANGED(f, field.origin[2] = kNaN, kGrid, reconstruct),
       CHANGED(f, field.origin[2] = 1e300, kGrid, reconstruct),
+      CHANGED(f, field.faces_x = b.numbers.data(), kGrid, reconstruct),
+      CHANGED(f, field.faces_z = b.faces(kNaN), kGrid, reconstruct),
+      CHANGED(f, field.faces_z = b.faces(kInfinity), kGrid, reconstruct),
+      CHANGED(f, field.faces_z = b.faces(2.0), kGrid, reconstruct),
+      CHANGED(f, field.faces_z = b.faces(4.0), kGrid, reconstruct),
+      CHANGED(f, field.faces_z = b.faces(2.0 + 1e-13), kGrid, reconstruct),
       CHANGED(f, values.values[77] = kNaN, DIF_ERROR_INVALID_VALUE, reconstruct),
       CHANGED(f, values.values[77] = -kInfinity, DIF_ERROR_INVALID_VALUE, reconstruct),
       CHANGED(f, values.values[77] = 1.2, DIF_ERROR_INVALID_VALUE, reconstruct),
@@ -364,6 +378,7 @@ std::vector<Case> smoothing_cases() {
         CHANGED(m, mollify_options.threads = -1, kArgument, mollify),
         CHANGED(m, mollify_options.reserved = 1, kArgument, mollify),
         CHANGED(m, field.dims[0] = 0, kGrid, mollify),
+        CHANGED(m, field.faces_z = b.faces(3.1), kArgument, mollify),
         CHANGED(m, values.values[33] = kNaN, DIF_ERROR_INVALID_VALUE, mollify),
   };
 }
@@ -487,6 +502,7 @@ std::vector<Case> fraction_cases() {
       CHANGED(f, grid.struct_size = 3, kStruct, from_shape),
       CHANGED(f, grid.dims[0] = kHuge, kGrid, from_shape),
       CHANGED(f, grid.spacing[2] = kNaN, kGrid, from_shape),
+      CHANGED(f, grid.faces_y = b.faces(4.0), kGrid, from_shape),
       CHANGED(f, function_options.tolerance = 0.0, kArgument, from_shape),
       CHANGED(f, function_options.kink_tolerance = kNaN, kArgument, from_shape),
       CHANGED(f, function_options.max_calls_per_cell = 1, kArgument, from_shape),
@@ -545,6 +561,13 @@ std::vector<Case> block_cases() {
       CHANGED(f, block.offset[0] = kHuge, kArgument, reconstruct_block),
       CHANGED(f, block.ghost_low[1] = kHuge, kArgument, reconstruct_block),
       CHANGED(f, block.ghost_high[1] = -1, kArgument, reconstruct_block),
+      {f, "ghosts beyond 64 bits at a periodic side", kArgument,
+       [](Bench& b) {
+         b.options.boundary[0] = b.options.boundary[1] = DIF_SIDE_PERIODIC;
+         b.block.ghost_low[0] = kHuge;
+         b.block.ghost_high[0] = kHuge;
+         return reconstruct_block(b);
+       }},
       CALL("dif_mesh_weld", dif_mesh_weld(nullptr, 1, &b.grid, &b.result), kArgument),
       CALL("dif_mesh_weld", dif_mesh_weld(nullptr, -1, &b.grid, &b.result), kArgument),
       CALL("dif_mesh_weld", dif_mesh_weld(nullptr, 0, nullptr, &b.result), kArgument),

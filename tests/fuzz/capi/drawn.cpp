@@ -132,6 +132,30 @@ Field::Field(Input& input, std::int64_t most_cells, std::int64_t types) {
     field_.origin[axis] = input.number_or_any(0.25);
     field_.spacing[axis] = input.number_or_any(1.0 + static_cast<double>(axis));
   }
+  stretch(input);
+}
+
+// One field in eight has tables of faces, for axes that it draws.
+void Field::stretch(Input& input) {
+  const std::uint8_t kind = input.byte();
+  if (kind < 224) {
+    return;
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if ((kind >> axis & 1) != 0) {
+      double face = input.number_or_any(0.0);
+      for (std::int64_t n = 0; n <= field_.dims[axis]; ++n) {
+        faces_[axis].push_back(face);
+        face += input.number_or_any((1.0 + input.byte()) / 64.0);
+      }
+    }
+  }
+  const auto table = [&](std::size_t axis) {
+    return faces_[axis].empty() ? nullptr : faces_[axis].data();
+  };
+  field_.faces_x = table(0);
+  field_.faces_y = table(1);
+  field_.faces_z = table(2);
 }
 
 void Field::lay_out(Input& input) {
@@ -210,6 +234,9 @@ dif_grid Field::grid() const {
   dif_grid grid = unit_cells({field_.dims[0], field_.dims[1], field_.dims[2]});
   std::copy_n(field_.origin, 3, grid.origin);
   std::copy_n(field_.spacing, 3, grid.spacing);
+  grid.faces_x = field_.faces_x;
+  grid.faces_y = field_.faces_y;
+  grid.faces_z = field_.faces_z;
   return grid;
 }
 

@@ -55,8 +55,10 @@ class Field {
 
  private:
   void lay_out(Input& input);
+  void stretch(Input& input);
 
   dif_field field_;
+  std::array<std::vector<double>, 3> faces_;  ///< by axis; empty: it is uniform
   std::vector<std::uint8_t> memory_;
 };
 
