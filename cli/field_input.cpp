@@ -145,7 +145,16 @@ double least_edge(const Grid& grid) {
   return std::min({grid.least_width(0), grid.least_width(1), grid.least_width(2)});
 }
 
+void FieldInput::check() const {
+  if (is_stretched(0) && is_stretched(1) && is_stretched(2) && (origin || spacing)) {
+    throw CLI::ValidationError(
+        origin ? "--origin" : "--spacing",
+        "--edges tells it already: all three axes have their files of faces");
+  }
+}
+
 LoadedField load_field(const FieldInput& input) {
+  input.check();
   ReadFieldOptions options{.origin = input.origin,
                            .spacing = input.spacing,
                            .labels = input.labels,
@@ -163,7 +172,7 @@ LoadedField load_field(const FieldInput& input) {
   }
   field.grid = field.file.grid();
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (!input.edges[axis].empty()) {
+    if (input.is_stretched(axis)) {
       field.grid.faces[axis] = read_faces(input.edges[axis]);
     }
   }
@@ -204,19 +213,35 @@ Json edges_json(const Grid& grid) {
   return edges;
 }
 
-std::string edges_text(const Grid& grid) {
-  std::string text;
+Json uniform_json(const Grid& grid, const Vec3& vector) {
+  Json numbers = Json::array();
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (!grid.is_uniform(axis)) {
-      text += std::string(text.empty() ? "" : "; ") + "xyz"[axis] + " from " +
-              exact(grid.faces[axis].front()) + " to " + exact(grid.faces[axis].back());
-    }
+    numbers.push_back(grid.is_uniform(axis) ? Json(vector[axis]) : Json());
   }
-  return text;
+  return numbers;
 }
 
-std::string with_source(const Vec3& vector, Source source) {
-  return exact(vector) + (source == Source::assumed ? "  (assumed, the file tells none)" : "");
+void print_axes(std::ostream& out, const LoadedField& field) {
+  const Grid& grid = field.grid;
+  const auto print_uniform = [&](const char* name, const Vec3& vector, Source source) {
+    std::string text;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      text += (axis == 0 ? "" : " ") + (grid.is_uniform(axis) ? exact(vector[axis]) : "-");
+    }
+    print_fact(out, name,
+               text + (source == Source::assumed ? "  (assumed, the file tells none)" : ""));
+  };
+  if (grid.is_uniform(0) || grid.is_uniform(1) || grid.is_uniform(2)) {
+    print_uniform("origin", grid.origin, field.origin_from);
+    print_uniform("spacing", grid.spacing, field.spacing_from);
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!grid.is_uniform(axis)) {
+      print_fact(out, (std::string("faces in ") + "xyz"[axis]).c_str(),
+                 exact(grid.faces[axis].front()) + " to " + exact(grid.faces[axis].back()) +
+                     ", the least width " + exact(grid.least_width(axis)));
+    }
+  }
 }
 
 }  // namespace difmesh::cli

@@ -4,7 +4,9 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +33,9 @@ struct FieldInput {
   bool allow_outside = false;
 
   [[nodiscard]] bool is_raw() const { return raw_dims.has_value(); }
+  [[nodiscard]] bool is_stretched(std::size_t axis) const { return !edges[axis].empty(); }
+  /// \throw CLI::ValidationError if options contradict each other
+  void check() const;
 };
 
 /// Where a part of the grid came from: the command line before the file before the default.
@@ -61,9 +66,10 @@ void add_field_options(CLI::App& command, FieldInput& input);
 [[nodiscard]] const char* name_of(Source source);
 /// By axis the faces of its cells where it is stretched, else null.
 [[nodiscard]] Json edges_json(const Grid& grid);
-/// Which axes are stretched, and between which ends; empty if none is.
-[[nodiscard]] std::string edges_text(const Grid& grid);
-/// The length or place with a remark where it was assumed.
-[[nodiscard]] std::string with_source(const Vec3& vector, Source source);
+/// An origin or spacing, null for stretched axes.
+[[nodiscard]] Json uniform_json(const Grid& grid, const Vec3& vector);
+/// Prints origin and spacing of uniform axes, with a remark where they were assumed, and the
+/// extents of stretched ones.
+void print_axes(std::ostream& out, const LoadedField& field);
 
 }  // namespace difmesh::cli

@@ -54,9 +54,9 @@ Json field_json(const LoadedField& field, const FieldFacts& facts) {
   };
   return {{"type", name_of(field.file.file_type)},
           {"dims", field.grid.dims},
-          {"origin", field.grid.origin},
+          {"origin", uniform_json(field.grid, field.grid.origin)},
           {"origin_from", name_of(field.origin_from)},
-          {"spacing", field.grid.spacing},
+          {"spacing", uniform_json(field.grid, field.grid.spacing)},
           {"spacing_from", name_of(field.spacing_from)},
           {"edges", edges_json(field.grid)},
           {"cells", facts.cells},
@@ -85,11 +85,7 @@ void print_field(std::ostream& out, const Request& request, const LoadedField& f
   print_fact(out, "field", request.input.path);
   print_fact(out, "type", name_of(field.file.file_type));
   print_fact(out, "cells", dims_text(field.grid.dims) + " = " + std::to_string(facts.cells));
-  print_fact(out, "origin", with_source(field.grid.origin, field.origin_from));
-  print_fact(out, "spacing", with_source(field.grid.spacing, field.spacing_from));
-  if (!field.grid.is_uniform()) {
-    print_fact(out, "stretched", edges_text(field.grid));
-  }
+  print_axes(out, field);
   print_fact(out, "lowest fraction", number_or_none(facts.lowest));
   print_fact(out, "highest fraction", number_or_none(facts.highest));
   print_fact(out, "fraction volume",
@@ -211,8 +207,11 @@ Kind kind_of(const FieldInput& input) {
                 "'" + input.path + "': unknown extension; fields are " + joined(kFieldExtensions) +
                     " or, with --raw-dims, raw; meshes are " + mesh_extensions_text());
   }
-  if (input.origin || input.spacing) {
-    throw CLI::ValidationError(input.origin ? "--origin" : "--spacing",
+  const bool is_stretched = input.is_stretched(0) || input.is_stretched(1) || input.is_stretched(2);
+  if (input.origin || input.spacing || is_stretched) {
+    throw CLI::ValidationError(input.origin    ? "--origin"
+                               : input.spacing ? "--spacing"
+                                               : "--edges",
                                "'" + input.path + "' is a mesh, it has no grid");
   }
   if (input.full_value || !input.labels.empty()) {

@@ -122,9 +122,9 @@ Json report_json(const Request& request, const LoadedField& field, const Reconst
   json["field"] = {{"path", request.input.path},
                    {"type", name_of(field.file.file_type)},
                    {"dims", field.grid.dims},
-                   {"origin", field.grid.origin},
+                   {"origin", uniform_json(field.grid, field.grid.origin)},
                    {"origin_from", name_of(field.origin_from)},
-                   {"spacing", field.grid.spacing},
+                   {"spacing", uniform_json(field.grid, field.grid.spacing)},
                    {"spacing_from", name_of(field.spacing_from)},
                    {"edges", edges_json(field.grid)},
                    {"cells", report.cells},
@@ -184,11 +184,7 @@ void print_summary(const Request& request, const LoadedField& field, const Recon
   print_fact(
       out, "cells",
       dims_text(field.grid.dims) + ", interfacial: " + std::to_string(report.interfacial_cells));
-  print_fact(out, "origin", with_source(field.grid.origin, field.origin_from));
-  print_fact(out, "spacing", with_source(field.grid.spacing, field.spacing_from));
-  if (!field.grid.is_uniform()) {
-    print_fact(out, "stretched", edges_text(field.grid));
-  }
+  print_axes(out, field);
   print_fact(out, "vertices", std::to_string(result.mesh.positions.size()));
   print_fact(out, "triangles", std::to_string(result.mesh.triangles.size()));
   print_fact(out, "closed", report.closed ? "yes" : "no, it ends at sides of the domain");
@@ -215,6 +211,10 @@ Reconstruction reconstruct_field(const Request& request, const LoadedField& fiel
   const std::optional<double> radius = mollify_radius(request);
   if (!radius) {
     return reconstruct(view, field.grid, options);
+  }
+  if (!field.grid.is_uniform()) {
+    throw Error(ErrorCode::invalid_argument,
+                "--mollify counts cells alike along each axis: not with --edges");
   }
   long_call.next("mollifying");
   Options checked = options;

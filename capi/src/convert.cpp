@@ -153,6 +153,13 @@ Field to_field(const dif_field* field) {
   return {to_view(given), grid};
 }
 
+void require_uniform(const dif_field* field, const char* why) {
+  const dif_field given = read_field_struct(field);
+  if (given.faces_x != nullptr || given.faces_y != nullptr || given.faces_z != nullptr) {
+    fail_argument("field: the axes must be uniform, " + std::string(why));
+  }
+}
+
 FieldView to_view(const dif_field* field) {
   const dif_field given = read_field_struct(field);
   validate(Grid{.dims = to_index(given.dims)});

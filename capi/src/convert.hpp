@@ -53,7 +53,9 @@ struct Field {
 };
 /// Checks the struct; the grid, and strides whose offsets would overflow. \throw Error, Failure
 [[nodiscard]] Field to_field(const dif_field* field);
-/// The same without origin and spacing.
+/// Refuses faces of stretched axes. \throw Error, Failure
+void require_uniform(const dif_field* field, const char* why);
+/// As to_field() without origin and spacing.
 [[nodiscard]] FieldView to_view(const dif_field* field);
 /// The same of values, whose type may be any.
 [[nodiscard]] ValueView to_values(const dif_field* values);

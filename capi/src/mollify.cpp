@@ -20,6 +20,7 @@ dif_status dif_mollify(const dif_field* field, const dif_mollify_options* option
   return capi::guarded([&] {
     const difmesh::FieldView view = capi::to_view(field);
     capi::required(values, "values");
+    capi::require_uniform(field, "mollification counts cells alike along each axis");
     dif_mollify_options defaults{};
     dif_mollify_options_init(&defaults, sizeof defaults);
     const dif_mollify_options given = capi::read_struct(options, defaults, "options");

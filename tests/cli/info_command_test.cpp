@@ -27,6 +27,7 @@ using difmesh::test::run_program;
 using difmesh::test::TriangleMesh;
 using difmesh::test::write_triangles;
 using test::TempFolder;
+using test::write_table;
 using Words = std::vector<std::string>;
 
 /// 4 x 3 x 2 cells, one of each kind that solvers leave, the rest empty.
@@ -78,6 +79,34 @@ TEST_CASE("info tells type and grid of a field and where the grid came from") {
   CHECK(json["field"]["origin_from"] == "command line");
   CHECK(json["field"]["spacing_from"] == "file");
   CHECK(info_json(folder / "zoo.npy")["field"]["spacing_from"] == "assumed");
+}
+
+TEST_CASE("info tells stretched axes and says nothing of a spacing along them") {
+  const TempFolder folder;
+  write_field(folder / "zoo.npy", zoo().view());
+  const auto write_faces = [&](const char* name, const std::vector<double>& numbers) {
+    write_table(folder / name, numbers);
+    return (folder / name).string();
+  };
+  const std::string y = write_faces("y.npy", {0.0, 1.0, 1.5, 4.0});
+  const std::string text = info(folder / "zoo.npy", {"--edges", "," + y + ",", "--spacing", "2"});
+  CHECK(fact(text, "spacing") == "2 - 2");
+  CHECK(fact(text, "origin").starts_with("0 - 0  (assumed"));
+  CHECK(fact(text, "faces in y") == "0 to 4, the least width 0.5");
+  const nlohmann::json json = info_json(folder / "zoo.npy", {"--edges", "," + y + ","})["field"];
+  CHECK(json["spacing"][0] == 1.0);
+  CHECK(json["spacing"][1].is_null());
+  CHECK(json["origin"][1].is_null());
+  CHECK(json["edges"][1] == std::vector<double>{0.0, 1.0, 1.5, 4.0});
+  CHECK(json["edges"][0].is_null());
+  const std::string x = write_faces("x.npy", {0.0, 1.0, 1.5, 4.0, 5.0});
+  const std::string z = write_faces("z.npy", {-1.0, 1.0, 2.0});
+  const std::string all = info(folder / "zoo.npy", {"--edges", x + "," + y + "," + z});
+  CHECK(all.find("spacing") == std::string::npos);
+  CHECK(fact(all, "faces in z") == "-1 to 2, the least width 1");
+  write_triangles(folder / "box.obj", box_mesh({0, 0, 0}, {1, 1, 1}));
+  check_fails(run_program({"info", (folder / "box.obj").string(), "--edges", "," + y + ","}), 2,
+              {"--edges", "is a mesh, it has no grid"});
 }
 
 TEST_CASE("info counts what solvers leave in a field") {

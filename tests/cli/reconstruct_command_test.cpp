@@ -37,6 +37,7 @@ using difmesh::test::OwnedField;
 using difmesh::test::run_program;
 using difmesh::test::same_bits;
 using test::TempFolder;
+using test::write_table;
 using Words = std::vector<std::string>;
 
 const Grid kGrid{{20, 16, 18}, {-1.5, 2.0, 0.25}, {0.1, 0.125, 0.08}};
@@ -147,22 +148,6 @@ TEST_CASE("boundaries are those of the library") {
         {Side::open, Side::mirror, Side::empty, Side::full, Side::periodic, Side::periodic});
 }
 
-namespace {
-
-// NumPy's format, version 1.0, of float64 in one axis.
-void write_table(const std::filesystem::path& path, const std::vector<double>& numbers) {
-  std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': (" +
-                       std::to_string(numbers.size()) + ",), }";
-  header.resize(117, ' ');
-  header += '\n';
-  std::ofstream file(path, std::ios::binary);
-  file << "\x93NUMPY\x01" << '\0' << static_cast<char>(118) << '\0' << header;
-  file.write(reinterpret_cast<const char*>(numbers.data()),
-             static_cast<std::streamsize>(numbers.size() * sizeof(double)));
-}
-
-}  // namespace
-
 TEST_CASE("stretched axes come from files") {
   Place place;
   OwnedField field = difmesh::test::white_noise({4, 5, 3}, 3);
@@ -179,6 +164,12 @@ TEST_CASE("stretched axes come from files") {
   CHECK(same_bits(mesh, reconstruct(field.view(), grid).mesh));
   CHECK(place.run("noise.npy", {"--edges", y + "," + y + "," + z})
             .err.find("faces in x: 6 for 4 cells") != std::string::npos);
+  const Outcome twice =
+      place.run("noise.npy", {"--edges", y + "," + y + "," + y, "--spacing", "2"});
+  CHECK(twice.exit_code == 2);
+  CHECK(twice.err.find("--spacing: --edges tells it already") != std::string::npos);
+  CHECK(place.run("noise.npy", {"--edges", "," + y + "," + z, "--mollify"})
+            .err.find("not with --edges") != std::string::npos);
   CHECK(place.run("noise.npy", {"--edges", y}).err.find("three files wanted") != std::string::npos);
   CHECK(place.run("noise.npy", {"--edges", ",,none.npy"}).err.find("none.npy") !=
         std::string::npos);

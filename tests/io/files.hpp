@@ -68,6 +68,18 @@ class TempFolder {
   std::filesystem::path path_;
 };
 
+/// NumPy's format, version 1.0, of float64 in one axis.
+inline void write_table(const std::filesystem::path& path, const std::vector<double>& numbers) {
+  std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': (" +
+                       std::to_string(numbers.size()) + ",), }";
+  header.resize(117, ' ');
+  header += '\n';
+  std::ofstream file(path, std::ios::binary);
+  file << "\x93NUMPY\x01" << '\0' << static_cast<char>(118) << '\0' << header;
+  file.write(reinterpret_cast<const char*>(numbers.data()),
+             static_cast<std::streamsize>(numbers.size() * sizeof(double)));
+}
+
 /// Runs `action` and checks that it throws an Error of this code whose message holds all the words.
 template <class Action>
 void check_error(const Action& action, difmesh::ErrorCode code,

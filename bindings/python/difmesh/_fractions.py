@@ -141,8 +141,8 @@ def _function_options(
 def fractions_from_function(
     function: Function,
     dims: Dims,
-    spacing: Triple = 1.0,
-    origin: Triple = 0.0,
+    spacing: Optional[Triple] = None,
+    origin: Optional[Triple] = None,
     *,
     edges: Edges = None,
     gradient: Optional[Function] = None,
@@ -157,7 +157,8 @@ def fractions_from_function(
     function: takes points as an array (n, 3) and returns an array (n,); continuous, and smooth
         but for kinks. What it raises cancels, and is raised here.
     dims: cells in x, y, z, or one number for all; the array of fractions has shape (nz, ny, nx).
-    spacing, origin: edges of a cell, and low corner of the grid; in x, y, z or one number for all.
+    spacing, origin: edges of a cell, and low corner of the grid; in x, y, z or one number for all,
+        1 and 0.
     edges: stretched axes, as for reconstruct().
     gradient: of function, (n, 3) to (n, 3); makes cells in which f wiggles safer.
     tolerance, kink_tolerance: aimed at in each cell's fraction, and where f has a kink; both in
@@ -187,8 +188,8 @@ def fractions_from_function(
 def fractions_from_shape(
     shape: Shape,
     dims: Dims,
-    spacing: Triple = 1.0,
-    origin: Triple = 0.0,
+    spacing: Optional[Triple] = None,
+    origin: Optional[Triple] = None,
     *,
     edges: Edges = None,
     tolerance: Optional[float] = None,
@@ -216,8 +217,8 @@ def fractions_from_shape(
 def fractions_from_mesh(
     mesh: Mesh,
     dims: Dims,
-    spacing: Triple = 1.0,
-    origin: Triple = 0.0,
+    spacing: Optional[Triple] = None,
+    origin: Optional[Triple] = None,
     *,
     tolerance: Optional[float] = None,
     flip: bool = False,

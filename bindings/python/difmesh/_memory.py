@@ -108,24 +108,40 @@ Edges = Optional[Sequence[Any]]
 
 def grid_struct(
     dims: int | Sequence[int] | npt.NDArray[Any],
-    spacing: Triple,
-    origin: Triple,
+    spacing: Triple | None,
+    origin: Triple | None,
     edges: Edges = None,
 ) -> DifGrid:
-    struct = DifGrid(
-        dims=index_triple(dims, "dims"),
-        origin=triple(origin, "origin"),
-        spacing=triple(spacing, "spacing"),
-    )
-    set_faces(struct, edges)
+    struct = DifGrid(dims=index_triple(dims, "dims"))
+    set_axes(struct, spacing, origin, edges)
     return struct
 
 
-def set_faces(struct: Any, edges: Edges) -> None:
-    """Gives a DifGrid or DifField its faces, which live as long as it does."""
+def set_axes(struct: Any, spacing: Triple | None, origin: Triple | None, edges: Edges) -> None:
+    """Gives a DifGrid or DifField its axes; without spacing and origin, 1 and 0."""
+    struct.origin = triple(0.0 if origin is None else origin, "origin")
+    struct.spacing = triple(1.0 if spacing is None else spacing, "spacing")
     if edges is None:
         return
     tables = tuple(edges)
+    set_faces(struct, tables)
+    is_told_twice = spacing is not None or origin is not None
+    if is_told_twice and all(table is not None for table in tables):
+        raise ValueError("spacing or origin are given beside edges of all three axes")
+
+
+def faces_array(table: Any, axis: str) -> npt.NDArray[np.float64]:
+    """The faces of one axis as the library takes them; copied where their type asks for that."""
+    if isinstance(table, np.ma.MaskedArray):
+        raise TypeError(f"edges in {axis} are a masked array")
+    array = np.asarray(table)
+    if array.dtype.kind not in "iuf":
+        raise TypeError(f"edges in {axis} have dtype {array.dtype}, which holds no real numbers")
+    return np.require(array, np.float64, ["A", "C"])
+
+
+def set_faces(struct: Any, tables: tuple[Any, ...]) -> None:
+    """Gives a DifGrid or DifField its faces, which live as long as it does."""
     if len(tables) != 3:
         raise ValueError(f"edges are three arrays or None, for x, y and z; got {len(tables)}")
     kept: list[npt.NDArray[np.float64] | None] = []
@@ -133,7 +149,7 @@ def set_faces(struct: Any, edges: Edges) -> None:
         if table is None:
             kept.append(None)
             continue
-        faces = np.require(table, np.float64, ["A", "C"])
+        faces = faces_array(table, axis)
         if faces.shape != (cells + 1,):
             raise ValueError(
                 f"edges in {axis} have the shape {faces.shape}; {cells} cells need ({cells + 1},)"
@@ -217,18 +233,18 @@ def field_struct(
     edges: Edges = None,
 ) -> tuple[DifField, npt.NDArray[Any]]:
     """The library's view of fractions, and the array that must outlive it."""
-    if isinstance(fractions, Field):
-        if axes != "kji":
-            raise ValueError("the axes of a Field are k, j, i")
-        spacing = fractions.spacing if spacing is None else spacing
-        origin = fractions.origin if origin is None else origin
-        edges = fractions.edges if edges is None else edges
-        fractions = fractions.fractions
-    array = fractions_array(fractions)
+    field = fractions if isinstance(fractions, Field) else None
+    if field is not None and axes != "kji":
+        raise ValueError("the axes of a Field are k, j, i")
+    array = fractions_array(fractions if field is None else field.fractions)
     struct = array_struct(array, axes)
-    struct.origin = triple(0.0 if origin is None else origin, "origin")
-    struct.spacing = triple(1.0 if spacing is None else spacing, "spacing")
-    set_faces(struct, edges)
+    if field is not None and edges is None:
+        edges = field.edges
+    set_axes(struct, spacing, origin, edges)
+    if field is not None and spacing is None:
+        struct.spacing = field.spacing
+    if field is not None and origin is None:
+        struct.origin = field.origin
     return struct, array
 
 

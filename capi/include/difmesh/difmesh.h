@@ -154,12 +154,13 @@ typedef struct dif_field {
   int64_t strides[3]; /* elements from a cell to the next one in x, y, z; may be 0 or negative */
   double origin[3];   /* low corner of cell (0, 0, 0) */
   double spacing[3];  /* edges of a cell, in [2^-300, 2^300] */
-  const double*
-      faces_x; /* stretched axes: dims + 1 strictly increasing faces of cells in place of */
-  const double* faces_y; /*   origin and spacing along the axis, read during calls; NULL, the */
-  const double* faces_z; /*   default: the axis is uniform */
-  int32_t type;          /* DIF_FLOAT64, ...; of values, see section 5, also DIF_INT8, ... */
-  int32_t reserved;      /* 0 */
+  /* Stretched axes: dims + 1 strictly increasing faces of cells in place of origin and spacing
+   * along the axis, read during calls; NULL, the default: the axis is uniform. */
+  const double* faces_x;
+  const double* faces_y;
+  const double* faces_z;
+  int32_t type;     /* DIF_FLOAT64, ...; of values, see section 5, also DIF_INT8, ... */
+  int32_t reserved; /* 0 */
 } dif_field;
 
 /* Describes `dims[0]` x `dims[1]` x `dims[2]` cells that lie without gaps, x fastest, as in a C
@@ -397,10 +398,11 @@ typedef struct dif_grid {
   int64_t dims[3];   /* cells in x, y, z; >= 1 each */
   double origin[3];  /* low corner of cell (0, 0, 0) */
   double spacing[3]; /* edges of a cell, in [2^-300, 2^300] */
-  const double*
-      faces_x; /* stretched axes: dims + 1 strictly increasing faces of cells in place of */
-  const double* faces_y; /*   origin and spacing along the axis, read during calls; NULL, the */
-  const double* faces_z; /*   default: the axis is uniform */
+  /* Stretched axes: dims + 1 strictly increasing faces of cells in place of origin and spacing
+   * along the axis, read during calls; NULL, the default: the axis is uniform. */
+  const double* faces_x;
+  const double* faces_y;
+  const double* faces_z;
 } dif_grid;
 
 /* Origin 0, spacing 1, which can be set afterwards. Errors: INVALID_ARGUMENT, STRUCT. Since 0.2. */
@@ -597,7 +599,8 @@ typedef struct dif_mollify_options {
 DIF_API dif_status dif_mollify_options_init(dif_mollify_options* options, uint64_t struct_size);
 
 /* Convolution of a field with a compact kernel that keeps the sum, unless sides are EMPTY or FULL.
- * `values` has one element per cell, x fastest. Origin and spacing are not looked at.
+ * `values` has one element per cell, x fastest. Origin and spacing are not looked at;
+ * stretched axes are refused, where the sum is not the volume.
  * Errors: INVALID_ARGUMENT, INVALID_GRID, INVALID_VALUE (the cell that is NaN or infinite is
  * named), STRUCT, TOO_LARGE, OUT_OF_MEMORY, CANCELLED. Since 0.2. */
 DIF_API dif_status dif_mollify(const dif_field* field, const dif_mollify_options* options,

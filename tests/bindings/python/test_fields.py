@@ -337,6 +337,21 @@ class Stretched(unittest.TestCase):
                 difmesh.reconstruct(field, edges=edges)
         with self.assertRaisesRegex(difmesh.InvalidGridError, "faces in z: number 2"):
             difmesh.reconstruct(field, edges=(None, None, [0, 1, 1, 2]))
+        good = np.arange(4.0)
+        masked = np.ma.masked_array(good, mask=[0, 1, 0, 0])
+        for table in (good.astype(complex), np.array(list("0123")), masked, good.astype(object)):
+            with self.subTest(table=table), self.assertRaisesRegex(TypeError, "edges in y"):
+                difmesh.reconstruct(field, edges=(None, table, None))
+        for beside in ({"spacing": 2.0}, {"origin": (1, 2, 3)}):
+            with self.subTest(beside=beside), self.assertRaisesRegex(ValueError, "beside edges"):
+                difmesh.reconstruct(field, edges=(good, good, good), **beside)
+            with self.subTest(beside=beside), self.assertRaisesRegex(ValueError, "beside edges"):
+                difmesh.fractions_from_shape(
+                    difmesh.Shape("sphere"), 3, edges=(good, good, good), **beside
+                )
+        # The one axis left takes them.
+        mesh = difmesh.reconstruct(field, spacing=2.0, origin=1.0, edges=(good, good, None))
+        self.assertEqual(mesh.report.fraction_volume, 27.0)
 
 
 if __name__ == "__main__":
