@@ -22,84 +22,15 @@
 #include "support/differences.hpp"
 #include "support/errors.hpp"
 #include "support/fields.hpp"
+#include "support/grids.hpp"
 #include "support/near_pure.hpp"
 #include "support/reports.hpp"
 #include "support/slabs.hpp"
 
 using namespace difmesh;
-using difmesh::test::error_of;
-using difmesh::test::OwnedField;
+using namespace difmesh::test;
 
 namespace {
-
-/// Widths that grow by a factor per cell, from the first one.
-std::vector<double> growing(std::int64_t cells, double first, double factor, double from) {
-  std::vector<double> faces{from};
-  for (double width = first; static_cast<std::int64_t>(faces.size()) <= cells; width *= factor) {
-    faces.push_back(faces.back() + width);
-  }
-  return faces;
-}
-
-/// Widths that grow by a fifth per cell, four times, and shrink again, between two ends.
-std::vector<double> waving(std::int64_t cells, double low, double high) {
-  std::vector<double> faces{0.0};
-  for (std::int64_t n = 0; n < cells; ++n) {
-    const std::int64_t place = n % 8;
-    faces.push_back(faces.back() +
-                    std::pow(1.2, static_cast<double>(place < 4 ? place : 8 - place)));
-  }
-  const double length = faces.back();
-  for (double& face : faces) {
-    face = low + (high - low) * (face / length);
-  }
-  return faces;
-}
-
-Grid grid_of(std::vector<double> x, std::vector<double> y, std::vector<double> z) {
-  Grid grid;
-  grid.faces = {std::move(x), std::move(y), std::move(z)};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    grid.dims[axis] = static_cast<std::int64_t>(grid.faces[axis].size()) - 1;
-  }
-  return grid;
-}
-
-template <class Action>
-void for_each_cell(const Grid& grid, const Action& action) {
-  for (std::int64_t k = 0; k < grid.dims[2]; ++k) {
-    for (std::int64_t j = 0; j < grid.dims[1]; ++j) {
-      for (std::int64_t i = 0; i < grid.dims[0]; ++i) {
-        action(Index3{i, j, k});
-      }
-    }
-  }
-}
-
-double dot(const Vec3& a, const Vec3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-struct TiltedPlane {
-  Vec3 normal;
-  double offset;
-
-  [[nodiscard]] OwnedField fractions(const Grid& grid) const {
-    OwnedField field(grid.dims);
-    for_each_cell(grid, [&](const Index3& cell) {
-      field.at(cell[0], cell[1], cell[2]) = plane_fraction(
-          normal, grid.cell_size(cell), offset - dot(normal, grid.cell_centre(cell)));
-    });
-    return field;
-  }
-};
-
-Vec3 random_direction(std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  Vec3 v{normal(random), normal(random), normal(random)};
-  const double length = std::sqrt(dot(v, v));
-  return {v[0] / length, v[1] / length, v[2] / length};
-}
 
 /// Largest of the cell that a point lies in, or of a neighbour.
 double local_size(const Grid& grid, const Vec3& point) {

@@ -3,6 +3,7 @@
 /// All of the core in one include.
 
 #include "difmesh/cell_planes.hpp"
+#include "difmesh/cell_surfaces.hpp"
 #include "difmesh/constrained_smoothing.hpp"
 #include "difmesh/curvature.hpp"
 #include "difmesh/edge_id.hpp"

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <vector>
 
 #include "base/parallel.hpp"
 #include "cells/classify.hpp"
-#include "difmesh/error.hpp"
 #include "difmesh/float_environment.hpp"
 #include "grid/block_field.hpp"
+#include "grid/cell_list.hpp"
 #include "planes/cube_fraction.hpp"
 #include "planes/plane_fitter.hpp"
 
@@ -23,19 +22,6 @@ constexpr std::int64_t kCellsPerRowPortion = 1 << 16;
 
 BlockField whole_field(const FieldView& field, const Grid& grid, const Options& options) {
   return detail::make_block_field(field, {{0, 0, 0}, grid.dims, {}, {}}, grid, options);
-}
-
-void check_cells(const Grid& grid, std::span<const Index3> cells) {
-  for (std::size_t n = 0; n < cells.size(); ++n) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (cells[n][axis] < 0 || cells[n][axis] >= grid.dims[axis]) {
-        throw Error(ErrorCode::invalid_argument,
-                    "cell_planes: cell number " + std::to_string(n) + " of the list, (" +
-                        std::to_string(cells[n][0]) + ", " + std::to_string(cells[n][1]) + ", " +
-                        std::to_string(cells[n][2]) + "), is outside the grid");
-      }
-    }
-  }
 }
 
 // From a plane in the unit cell.
@@ -139,13 +125,8 @@ void list_row(const BlockField& field, std::int64_t row, std::vector<Index3>& ce
 void cell_planes(const FieldView& field, const Grid& grid, std::span<const Index3> cells,
                  const Options& options, std::span<CellPlane> planes) {
   const DefaultFloatEnvironment environment;
-  if (cells.size() != planes.size()) {
-    throw Error(ErrorCode::invalid_argument, "cell_planes: " + std::to_string(cells.size()) +
-                                                 " cells but room for " +
-                                                 std::to_string(planes.size()) + " planes");
-  }
   const BlockField block = whole_field(field, grid, options);
-  check_cells(grid, cells);
+  detail::check_cell_list("cell_planes", grid, cells, planes.size(), "planes");
   detail::Workers workers(options.threads);
   detail::Phases phases(workers, options.progress);
   detail::with_scalar(field.type, [&](auto type) {

@@ -1,0 +1,64 @@
+#pragma once
+// The plane that touches a graph over the centre of a box.
+
+#include <array>
+#include <cmath>
+
+#include "curved/graph_share.hpp"
+
+namespace difmesh::detail {
+
+// Shorter edges, and planes that lean less against an axis, add nothing but rounding.
+inline constexpr double kNoLength = 1e-14;
+inline constexpr double kNoSlope = 1e-9;
+
+/// A point of [0,1] and its weight.
+struct GaussPoint {
+  double at;
+  double weight;
+};
+inline constexpr std::array<GaussPoint, 3> kGauss3{
+    {{0.11270166537925831, 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.88729833462074169, 5.0 / 18.0}}};
+
+template <int kDegree>
+struct TangentPlane {
+  double xi;  ///< of the box's centre
+  double eta;
+  double value;  ///< of the graph there
+  double by_xi;
+  double by_eta;
+  Vec3 normal;            ///< not of length 1: its component along the frame's ζ is
+  double offset;          ///< normal · (x - centre) = offset
+  double reach;           ///< offsets of this size and more miss the box
+  PlaneInSpace in_space;  ///< by ξ and η from the box's centre
+
+  TangentPlane(const PlaneGraph<kDegree>& graph, const Box& box) {
+    const auto& [xi_axis, eta_axis, zeta_axis] = graph.frame;
+    xi = dot(xi_axis, box.centre);
+    eta = dot(eta_axis, box.centre);
+    value = graph.polynomial.value(xi, eta);
+    const auto [slope_xi, slope_eta] = graph.polynomial.gradient(xi, eta);
+    by_xi = slope_xi;
+    by_eta = slope_eta;
+    offset = value - dot(zeta_axis, box.centre);
+    reach = 0.0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      normal[a] = zeta_axis[a] - by_xi * xi_axis[a] - by_eta * eta_axis[a];
+      reach += 0.5 * std::abs(normal[a]) * box.size[a];
+      in_space.point[a] = zeta_axis[a] * offset;
+      in_space.along_s[a] = xi_axis[a] + zeta_axis[a] * by_xi;
+      in_space.along_t[a] = eta_axis[a] + zeta_axis[a] * by_eta;
+    }
+  }
+
+  /// How fast a coordinate of space changes in the plane at most, by ξ and η.
+  [[nodiscard]] double slope_along(std::size_t axis) const {
+    return std::hypot(in_space.along_s[axis], in_space.along_t[axis]);
+  }
+  /// Of the graph above the plane, along ζ.
+  [[nodiscard]] double distance_to(const PlaneGraph<kDegree>& graph, double s, double t) const {
+    return graph.polynomial.value(xi + s, eta + t) - (value + by_xi * s + by_eta * t);
+  }
+};
+
+}  // namespace difmesh::detail
