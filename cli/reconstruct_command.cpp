@@ -145,7 +145,10 @@ Json report_json(const Request& request, const LoadedField& field, const Reconst
                   {"solved_edges", report.solved_edges},
                   {"newton_steps_mean", report.newton_steps_mean},
                   {"newton_steps_max", report.newton_steps_max},
-                  {"non_monotone_edges", report.non_monotone_edges}};
+                  {"non_monotone_edges", report.non_monotone_edges},
+                  {"curved_cells", report.curved_cells},
+                  {"curved_vertices", report.curved_vertices},
+                  {"moved_centres", report.moved_centres}};
   json["seconds"] = {{"read", seconds.read},
                      {"classify", report.seconds.classify},
                      {"normals", report.seconds.normals},
@@ -371,6 +374,7 @@ void add_method_options(CLI::App& command, Request& request) {
           },
           "Where vertices are put on the edges between cell centres:\n"
           "  plic      from planes in both cells, second-order accurate (default)\n"
+          "  curved    from curved surfaces in both cells, else plic: of fourth order, and slow\n"
           "  manson    from the two fractions, in four cases\n"
           "  linear    where interpolation gives 1/2: plain marching cubes\n"
           "  midpoint  in the middle")

@@ -22,7 +22,7 @@ ROOMS = {
     "curved": ["base", "grid", "planes"],
     "placement": ["base", "grid", "lanes", "planes", "cells"],
     "mesh": ["base", "grid"],
-    "surface": ["base", "grid", "planes", "cells", "placement", "mesh"],
+    "surface": ["base", "grid", "planes", "cells", "curved", "placement", "mesh"],
     "sampling": ["base", "grid", "mesh"],
     "shapes": ["base", "grid", "mesh", "sampling"],
 }

@@ -43,24 +43,6 @@ double local_size(const Grid& grid, const Vec3& point) {
   return size;
 }
 
-/// Whether a cell at an end of the edge has so little material, or lacks so little, that rounding
-/// tells where its plane lies.
-bool ends_in_sliver(const OwnedField& field, const DualEdgeName& edge) {
-  for (const std::int64_t step : {0, 1}) {
-    Index3 cell = edge.lower;
-    cell[static_cast<std::size_t>(edge.axis)] += step;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      cell[axis] = std::clamp<std::int64_t>(cell[axis], 0, field.dims[axis] - 1);
-    }
-    const double fraction = field.at_cell(cell);
-    const double lacking = std::min(fraction, 1.0 - fraction);
-    if (lacking > 0.0 && lacking < 1e-8) {
-      return true;
-    }
-  }
-  return false;
-}
-
 }  // namespace
 
 TEST_CASE("stretched: tilted planes are exact up to open sides") {

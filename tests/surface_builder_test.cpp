@@ -71,14 +71,17 @@ TEST_CASE("builder: any slabs give the whole to the last bit and its report") {
     for (const Side side : {Side::open, Side::mirror, Side::empty, Side::full}) {
       check_all_cuts(field, with_sides(side, side, side, side));
     }
+    Options curved = with_sides(Side::mirror, Side::empty, Side::open, Side::full);
+    curved.placement = Placement::curved;
+    check_all_cuts(field, curved);
     check_all_cuts(field, with_sides(Side::periodic, Side::open, Side::full, Side::open));
   }
 }
 
 TEST_CASE("builder: every placement and normal with vertex normals") {
   const OwnedField field = test::white_noise({8, 7, 19}, 7);
-  for (const Placement placement :
-       {Placement::midpoint, Placement::linear, Placement::manson, Placement::plic}) {
+  for (const Placement placement : {Placement::midpoint, Placement::linear, Placement::manson,
+                                    Placement::plic, Placement::curved}) {
     for (const Normals normals : {Normals::youngs, Normals::height_function, Normals::lvira}) {
       Options options;
       options.placement = placement;
@@ -100,7 +103,7 @@ TEST_CASE("builder: random fields in random slabs") {
     options.edge_ids = true;
     options.threads = 1;
     options.purity_tolerance = n % 3 == 0 ? 0.1 : 1e-6;
-    options.placement = below(3) > 0 ? Placement::plic : static_cast<Placement>(below(4));
+    options.placement = below(3) > 0 ? Placement::plic : static_cast<Placement>(below(5));
     options.normals = static_cast<Normals>(below(5));
     const Index3 dims{1 + below(5), 1 + below(5), 1 + below(30)};
     for (std::size_t side = 0; side < 6; ++side) {

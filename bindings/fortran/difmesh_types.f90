@@ -40,7 +40,8 @@ module difmesh_types
     dif_placement_midpoint = 1, &
     dif_placement_linear = 2, &
     dif_placement_manson = 3, &
-    dif_placement_plic = 4
+    dif_placement_plic = 4, &
+    dif_placement_curved = 5
 
   integer(c_int32_t), parameter, public :: &
     dif_normals_default = 0, &
@@ -125,7 +126,8 @@ module difmesh_types
     dif_version_major = 0, &
     dif_version_minor = 2, &
     dif_version_patch = 0, &
-    dif_ghost_layers = 5
+    dif_ghost_layers = 5, &
+    dif_curved_ghost_layers = 8
 
   type, bind(c), public :: dif_field
     integer(c_int64_t) :: struct_size = 0
@@ -180,6 +182,9 @@ module difmesh_types
     real(c_double) :: seconds_total = 0
     integer(c_int32_t) :: closed = 0
     integer(c_int32_t) :: reserved = 0
+    integer(c_int64_t) :: curved_cells = 0
+    integer(c_int64_t) :: curved_vertices = 0
+    integer(c_int64_t) :: moved_centres = 0
   end type
 
   type, bind(c), public :: dif_plane_arrays

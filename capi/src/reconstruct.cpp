@@ -43,6 +43,9 @@ dif_report to_report(const difmesh::Report& report) {
   result.seconds_vertices = report.seconds.vertices;
   result.seconds_triangles = report.seconds.triangles;
   result.seconds_total = report.seconds.total;
+  result.curved_cells = report.curved_cells;
+  result.curved_vertices = report.curved_vertices;
+  result.moved_centres = report.moved_centres;
   return result;
 }
 

@@ -70,9 +70,9 @@ TEST_CASE("a reconstruction has the bits of the core's for every choice") {
   const test::OwnedField blob = test::blob(kGrid.dims);
   const test::OwnedField noise = test::white_noise(kGrid.dims, 3);
   const std::array placements{Placement::midpoint, Placement::linear, Placement::manson,
-                              Placement::plic};
+                              Placement::plic, Placement::curved};
   for (const test::OwnedField* field : {&blob, &noise}) {
-    for (std::int32_t placement = 0; placement <= 4; ++placement) {
+    for (std::int32_t placement = 0; placement <= 5; ++placement) {
       dif_options options = with_all();
       Options expected = cxx_with_all();
       options.placement = placement;

@@ -213,7 +213,7 @@ void reconstruct_all(Results& results, Probe& probe) {
   for (std::size_t f = 0; f < 4; ++f) {
     dif_field field = c::c_field(fields[f]);
     std::copy_n(spacings[f], 3, field.spacing);
-    for (std::int32_t placement = 1; placement <= 4; ++placement) {
+    for (std::int32_t placement = 1; placement <= 5; ++placement) {
       for (std::int32_t normals = 1; normals <= (f == 1 ? 3 : 5); ++normals) {
         dif_options options = c::prepared(dif_options_init);
         options.placement = placement;

@@ -203,7 +203,7 @@ std::vector<Case> field_cases() {
       CHANGED(f, values.values[77] = -kInfinity, DIF_ERROR_INVALID_VALUE, reconstruct),
       CHANGED(f, values.values[77] = 1.2, DIF_ERROR_INVALID_VALUE, reconstruct),
       CHANGED(f, options.struct_size = 4, kStruct, reconstruct),
-      CHANGED(f, options.placement = 5, kArgument, reconstruct),
+      CHANGED(f, options.placement = 6, kArgument, reconstruct),
       CHANGED(f, options.placement = -1, kArgument, reconstruct),
       CHANGED(f, options.normals = 6, kArgument, reconstruct),
       CHANGED(f, options.boundary[3] = 6, kArgument, reconstruct),

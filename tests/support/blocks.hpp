@@ -25,6 +25,7 @@ struct BlockData {
 inline BlockData cut_out(const OwnedField& field, const Index3& low, const Index3& high,
                          const Options& options) {
   BlockData data;
+  const std::int64_t layers = ghost_layers(options.placement);
   Index3 from{};
   Index3 size{};
   for (std::size_t a = 0; a < 3; ++a) {
@@ -32,10 +33,9 @@ inline BlockData cut_out(const OwnedField& field, const Index3& low, const Index
     const bool whole = low[a] == 0 && high[a] == field.dims[a];
     data.block.offset[a] = low[a];
     data.block.dims[a] = high[a] - low[a];
-    data.block.ghost_low[a] =
-        periodic ? (whole ? 0 : kGhostLayers) : std::min(kGhostLayers, low[a]);
+    data.block.ghost_low[a] = periodic ? (whole ? 0 : layers) : std::min(layers, low[a]);
     data.block.ghost_high[a] =
-        periodic ? (whole ? 0 : kGhostLayers) : std::min(kGhostLayers, field.dims[a] - high[a]);
+        periodic ? (whole ? 0 : layers) : std::min(layers, field.dims[a] - high[a]);
     from[a] = low[a] - data.block.ghost_low[a];
     size[a] = data.block.dims[a] + data.block.ghost_low[a] + data.block.ghost_high[a];
   }

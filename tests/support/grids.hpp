@@ -2,12 +2,15 @@
 /// \file grids.hpp
 /// Grids with stretched axes, and tilted planes on grids of any kind.
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <random>
 #include <utility>
 #include <vector>
 
+#include "difmesh/edge_id.hpp"
 #include "difmesh/grid.hpp"
 #include "difmesh/plane.hpp"
 #include "support/fields.hpp"
@@ -77,6 +80,24 @@ inline Vec3 random_direction(std::mt19937_64& random) {
   std::normal_distribution<double> normal;
   Vec3 v{normal(random), normal(random), normal(random)};
   return unit(v);
+}
+
+/// Whether a cell at an end of the edge has so little material, or lacks so little, that rounding
+/// tells where its plane lies.
+inline bool ends_in_sliver(const OwnedField& field, const DualEdgeName& edge) {
+  for (const std::int64_t step : {0, 1}) {
+    Index3 cell = edge.lower;
+    cell[static_cast<std::size_t>(edge.axis)] += step;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      cell[axis] = std::clamp<std::int64_t>(cell[axis], 0, field.dims[axis] - 1);
+    }
+    const double fraction = field.at_cell(cell);
+    const double lacking = std::min(fraction, 1.0 - fraction);
+    if (lacking > 0.0 && lacking < 1e-8) {
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace difmesh::test

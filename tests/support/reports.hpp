@@ -31,6 +31,9 @@ namespace difmesh::test {
   DIFMESH_COMPARE(newton_steps_mean)
   DIFMESH_COMPARE(newton_steps_max)
   DIFMESH_COMPARE(non_monotone_edges)
+  DIFMESH_COMPARE(curved_cells)
+  DIFMESH_COMPARE(curved_vertices)
+  DIFMESH_COMPARE(moved_centres)
   DIFMESH_COMPARE(closed)
 #undef DIFMESH_COMPARE
   if (differ(a.fraction_volume, b.fraction_volume)) {

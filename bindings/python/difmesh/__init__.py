@@ -34,13 +34,14 @@ from ._mesh import Measure, Mesh, Report, WriteReport, read_mesh
 from ._options import choice as _choice
 from ._options import choices as _choices
 from ._planes import Planes, cell_planes, normals, plane_fraction, plane_offset
-from ._reconstruct import GHOST_LAYERS, reconstruct, reconstruct_block, weld
+from ._reconstruct import CURVED_GHOST_LAYERS, GHOST_LAYERS, reconstruct, reconstruct_block, weld
 from ._smoothing import Curvature, curvature, mollify, smooth
 from ._values import fractions_from_labels, fractions_from_values
 
 __version__ = "0.2.0"
 
 __all__ = [
+    "CURVED_GHOST_LAYERS",
     "GHOST_LAYERS",
     "CancelledError",
     "Curvature",

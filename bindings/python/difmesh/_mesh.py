@@ -42,6 +42,9 @@ class Report:
     seconds_vertices: float
     seconds_triangles: float
     seconds_total: float
+    curved_cells: int  #: "curved": cells that own a curved surface
+    curved_vertices: int  #: vertices that such surfaces placed
+    moved_centres: int  #: cells whose centre they put on another side than fraction >= 1/2 does
 
 
 @dataclass(frozen=True)

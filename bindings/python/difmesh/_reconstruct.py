@@ -17,8 +17,9 @@ from ._options import to_options
 from ._structs import DifBlock
 from ._values import Labels, taken_as_asked
 
-#: Ghost cells that a block needs beyond each face, as far as the domain reaches.
+#: Ghost cells that a block needs beyond each face, as far as the domain reaches; and for "curved".
 GHOST_LAYERS = _constants.GHOST_LAYERS
+CURVED_GHOST_LAYERS = _constants.CURVED_GHOST_LAYERS
 
 
 def reconstruct(
@@ -66,8 +67,8 @@ def reconstruct(
         If neither is given, a Warning names the highest value of integers that look like a mask or
         a segmentation: none is the largest of the type, and none reaches half of it or there are at
         most 16 different ones.
-    placement: "plic" (second-order accurate), "manson", "linear" (plain marching cubes) or
-        "midpoint".
+    placement: "plic" (second-order accurate), "curved" (of fourth order where surfaces are smooth),
+        "manson", "linear" (plain marching cubes) or "midpoint".
     normals: how those of cells are estimated: "height_function", "myc", "youngs", "elvira" or
         "lvira".
     boundary: what lies beyond the domain: "open", "mirror", "periodic", "empty" or "full"; one
@@ -134,8 +135,8 @@ def reconstruct_block(
     """The surface of one block of a larger grid, for weld(). Experimental.
 
     fractions: of the cells [offset - ghost_low, offset + dims + ghost_high) of the whole grid,
-        which has grid_dims cells; GHOST_LAYERS ghost cells are needed beyond each face of the
-        block, as far as the domain reaches. All of these in x, y, z.
+        which has grid_dims cells; GHOST_LAYERS ghost cells (CURVED_GHOST_LAYERS for "curved") are
+        needed beyond each face of the block, as far as the domain reaches. All of these in x, y, z.
     spacing, origin, edges, boundary: of the whole grid. Others as for reconstruct(). The mesh has
     edge_ids.
     """

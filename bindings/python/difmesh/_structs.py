@@ -72,6 +72,9 @@ class DifReport(Sized):
         ("seconds_total", c_double),
         ("closed", c_int32),
         ("reserved", c_int32),
+        ("curved_cells", c_int64),
+        ("curved_vertices", c_int64),
+        ("moved_centres", c_int64),
     ]
 
 

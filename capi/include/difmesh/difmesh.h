@@ -176,7 +176,9 @@ enum {
   DIF_PLACEMENT_MIDPOINT = 1,
   DIF_PLACEMENT_LINEAR = 2, /* what plain marching cubes does */
   DIF_PLACEMENT_MANSON = 3, /* Manson, Smith, Schaefer, Eurographics 2011 */
-  DIF_PLACEMENT_PLIC = 4    /* Evrard, Denner, van Wachem, IEEE TVCG 2019: second-order accurate */
+  DIF_PLACEMENT_PLIC = 4,   /* Evrard, Denner, van Wachem, IEEE TVCG 2019: second-order accurate */
+  DIF_PLACEMENT_CURVED = 5  /* curved surfaces of cells, or PLIC where they have none: of fourth
+                               order and more where surfaces are smooth; see docs/method.md */
 };
 
 /* How the normal of an interfacial cell is estimated. */
@@ -277,6 +279,9 @@ typedef struct dif_report {
   double seconds_total;
   int32_t closed; /* 1: no boundary edge; an empty mesh is closed */
   int32_t reserved;
+  int64_t curved_cells;    /* CURVED: cells that own a curved surface */
+  int64_t curved_vertices; /* vertices that such surfaces placed */
+  int64_t moved_centres;   /* cells whose centre they put on another side than fraction >= 1/2 */
 } dif_report;
 
 /* Prepares an output struct. Errors: INVALID_ARGUMENT, STRUCT. Since 0.2. */
@@ -954,6 +959,8 @@ DIF_API dif_status dif_field_write(const dif_field* field, const char* path,
 
 /* Ghost cells that a block needs beyond each face, as far as the domain reaches. */
 #define DIF_GHOST_LAYERS 5
+/* The same for DIF_PLACEMENT_CURVED. */
+#define DIF_CURVED_GHOST_LAYERS 8
 
 /* A block of a larger grid, as one rank of a distributed solver has it. The field given with it
  * covers the cells [offset - ghost_low, offset + dims + ghost_high) of the whole grid. */

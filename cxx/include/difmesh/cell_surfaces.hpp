@@ -78,11 +78,11 @@ struct CellSurface {
 ///   On stretched axes fits work in space, and heights with the cells' widths.
 ///
 /// On spheres the curvature of kind `curvature` is off by 3e-3 of itself (rms; at most 2e-2) at 8
-/// cells per radius, 6e-4 (6e-3) at 26, 4e-5 (4e-4) at 64; the foot by 2e-4, 1e-5 and 3e-7 spacings.
+/// cells per radius, 6e-4 (6e-3) at 26, 4e-5 (4e-4) at 64; the foot by 2e-4, 1e-5 and 3e-7 cells.
 /// \param cells indices of cells in the grid; \param surfaces as many results
 /// \throw Error as cell_planes(). The field is not validated; NaN count as 0.
-/// Cost: on one thread 3 µs per cell where 13 heights hold, 6 µs for 25, 50 µs where a paraboloid is
-/// fitted, some 200 µs for a quartic; on options.threads threads.
+/// Cost: on one thread 3 µs per cell where 13 heights hold, 6 µs for 25, 40 µs where a paraboloid
+/// is fitted, some 200 µs for a quartic; on options.threads threads.
 /// Thread safety: concurrent calls are safe.
 /// Source: docs/method.md, "Curved cell surfaces"; curvature of level sets: R. Goldman, Comput.
 /// Aided Geom. Des. 22 (2005) 632-658.

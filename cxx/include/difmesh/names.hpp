@@ -20,10 +20,11 @@ struct Named {
   Value value;
 };
 
-inline constexpr std::array<Named<Placement>, 4> kPlacements{{{"midpoint", Placement::midpoint},
+inline constexpr std::array<Named<Placement>, 5> kPlacements{{{"midpoint", Placement::midpoint},
                                                               {"linear", Placement::linear},
                                                               {"manson", Placement::manson},
-                                                              {"plic", Placement::plic}}};
+                                                              {"plic", Placement::plic},
+                                                              {"curved", Placement::curved}}};
 
 inline constexpr std::array<Named<Normals>, 5> kNormals{
     {{"youngs", Normals::youngs},

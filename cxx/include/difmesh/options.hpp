@@ -16,6 +16,10 @@ enum class Placement : std::uint8_t {
   linear,    ///< linear interpolation of the fractions: what plain marching cubes does
   manson,    ///< Manson et al., four cases from the two fractions alone
   plic,      ///< E19: half-full window over the planes of both cells; second-order accurate
+  /// The curved surfaces of both cells (cell_surfaces.hpp), or plic where they have none or
+  /// contradict each other; of fourth order and more where surfaces are smooth. Vertex normals are
+  /// theirs. Blocks need kCurvedGhostLayers. Source: docs/method.md, "Curved cell surfaces".
+  curved,
 };
 
 /// How the normal of an interfacial cell is estimated.

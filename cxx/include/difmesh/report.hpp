@@ -25,6 +25,10 @@ struct Report {
   /// Solved edges along which the window's fraction falls somewhere, so that more than one position
   /// may be half full.
   std::int64_t non_monotone_edges = 0;
+  std::int64_t curved_cells = 0;     ///< Placement::curved: cells that own a curved surface
+  std::int64_t curved_vertices = 0;  ///< vertices that such surfaces placed
+  /// Cells whose centre their surface puts on another side than γ >= 1/2 does.
+  std::int64_t moved_centres = 0;
   /// No boundary edge; an empty mesh is closed. Of a block: none on a side of the domain.
   bool closed = true;
   /// Signed volume inside; 0 where not closed. Of a block: the signed volume between its triangles

@@ -22,8 +22,9 @@ struct BuilderOptions {
   /// layers, and the surface is that of reconstruct_block().
   std::optional<Block> part = {};
   /// Layers of cells that are worked on at once where slabs are thin. Each such group costs the
-  /// planes and edges of one layer, and a look at the cells of 2 kGhostLayers, once more; it needs
-  /// memory for its fractions and its mesh. 0: as many as hold 4 million cells, but at least 16.
+  /// planes and edges of one layer, and a look at the cells of 2 ghost_layers(), once more (for
+  /// Placement::curved the surfaces of five layers); it needs memory for its fractions and its
+  /// mesh. 0: as many as hold 4 million cells, but at least 16.
   std::int64_t layers_at_once = 0;
 };
 
@@ -35,10 +36,10 @@ struct BuilderOptions {
 ///     while (more) builder.add(next_slab());
 ///     Report report = builder.finish();
 ///
-/// Holds the last 2 kGhostLayers layers and those that wait for layers_at_once. Slabs thicker than
-/// that are worked on where they lie; the caller may free a slab once add() returns.
+/// Holds the last 2 ghost_layers() layers and those that wait for layers_at_once. Slabs thicker
+/// than that are worked on where they lie; the caller may free a slab once add() returns.
 /// Periodic in z: the first cells need the last ones. Give the field in one slab, or a `part` that
-/// is the whole grid with kGhostLayers ghost layers at both ends in z, wrapped round.
+/// is the whole grid with ghost_layers() ghost layers at both ends in z, wrapped round.
 /// Thread safety: one call at a time on each builder; different builders are independent.
 class SurfaceBuilder {
  public:

@@ -79,13 +79,15 @@ class Workers {
 /// Runs phases of known weight, and reports between slices of each on the calling thread.
 class Phases {
  public:
-  Phases(Workers& workers, const Progress& progress) : workers_(workers), progress_(progress) {}
+  /// \param weight of all phases together
+  Phases(Workers& workers, const Progress& progress, double weight = 1.0)
+      : workers_(workers), progress_(progress), weight_(weight) {}
 
   [[nodiscard]] int threads() const { return workers_.count(); }
   /// As many portions as a phase must have to report its progress.
   [[nodiscard]] std::int64_t least_portions() const { return progress_ ? kSlices : 1; }
 
-  /// As Workers::for_portions, as the next `weight` of the whole (all weights sum to 1).
+  /// As Workers::for_portions, as the next `weight` of the whole.
   template <class Body>
   void run(double weight, std::int64_t count, std::int64_t grain, const Body& body) {
     if (!progress_) {
@@ -108,7 +110,7 @@ class Phases {
   /// Reports completion.
   void finish() {
     if (progress_) {
-      report(1.0);
+      report(weight_);
     }
   }
 
@@ -116,13 +118,14 @@ class Phases {
   static constexpr std::int64_t kSlices = 16;
 
   void report(double share) {
-    if (!progress_(std::min(share, 1.0))) {
+    if (!progress_(std::min(share / weight_, 1.0))) {
       throw Error(ErrorCode::cancelled, "cancelled by the progress callback");
     }
   }
 
   Workers& workers_;
   const Progress& progress_;
+  double weight_;
   double done_ = 0.0;
 };
 

@@ -15,6 +15,7 @@ constexpr double kMostAway = 1.8;   // cells from the centre to the foot of a su
 constexpr double kDiverged = 3.0;   // a change of coefficients as large as that
 constexpr double kSettled = 1e-4;   // and as small as that, if more would remain unexplained
 constexpr double kExact = 1e-8;     // and as small as that, where nothing would
+constexpr double kHopeless = 0.3;   // unexplained after two steps
 constexpr double kRidge = 1e-13;    // of the mean of the diagonal, against singular equations
 
 /// Where weights end, in cells, how well cells must be explained, and in how many steps.
@@ -88,6 +89,8 @@ class GraphFit {
         if (!is_near()) {
           return std::nullopt;
         }
+      } else if (unexplained_ > kHopeless) {
+        return std::nullopt;
       } else if (is_settled(*change)) {
         break;
       }

@@ -51,6 +51,40 @@ typename PlanePolynomial<kDegree>::Terms integrals(const PlaneSection& section,
   return result;
 }
 
+// The same from sums over the edges.
+PlanePolynomial<2>::Terms integrals(const PlaneSection& section, const TangentPlane<2>& plane) {
+  double one = 0.0;  // integrals of 1, s, t, s², s t and t²
+  double s = 0.0;
+  double t = 0.0;
+  double ss = 0.0;
+  double st = 0.0;
+  double tt = 0.0;
+  for (std::size_t n = 0; n < section.corners(); ++n) {
+    const auto [from, to, face] = section.edge(n);
+    const double turn = from.s * to.t - to.s * from.t;
+    one += turn;
+    s += (from.s + to.s) * turn;
+    t += (from.t + to.t) * turn;
+    ss += (from.s * from.s + from.s * to.s + to.s * to.s) * turn;
+    st += (from.s * (2.0 * from.t + to.t) + to.s * (from.t + 2.0 * to.t)) * turn;
+    tt += (from.t * from.t + from.t * to.t + to.t * to.t) * turn;
+  }
+  one *= 0.5;
+  s *= 1.0 / 6.0;
+  t *= 1.0 / 6.0;
+  ss *= 1.0 / 12.0;
+  st *= 1.0 / 24.0;
+  tt *= 1.0 / 12.0;
+  const double xi = plane.xi;
+  const double eta = plane.eta;
+  return {one,
+          s + xi * one,
+          t + eta * one,
+          ss + 2.0 * xi * s + xi * xi * one,
+          st + xi * t + eta * s + xi * eta * one,
+          tt + 2.0 * eta * t + eta * eta * one};
+}
+
 // What the sides of the box cut off between plane and graph: along an edge of the section the side
 // leans by the ratio of normal and slope, so that the strip's area is half the square of the
 // graph's distance by it.
@@ -60,11 +94,8 @@ double cut_off(const PlaneGraph<kDegree>& graph, const PlaneSection& section,
   double result = 0.0;
   for (std::size_t n = 0; n < section.corners(); ++n) {
     const PlaneSection::Edge edge = section.edge(n);
-    if (edge.face == PlaneSection::kNoFace) {
-      continue;
-    }
-    const double length = std::hypot(edge.to.s - edge.from.s, edge.to.t - edge.from.t);
-    const double slope = plane.slope_along(axis_of(edge.face));
+    const double length = length_of(edge);
+    const double slope = plane.slopes[axis_of(edge.face)];
     if (length < kNoLength || slope < kNoSlope) {
       continue;
     }

@@ -28,8 +28,9 @@ struct GraphShare {
   bool is_pure = false;
 };
 
-/// The share of the tangent plane, and the volume between it and the graph: over the section of the
-/// plane, less what the sides cut off, to second order in the distance of the two. Exact for planes.
+/// The share of the tangent plane, and the volume between it and the graph: over the section of
+/// the plane, less what the sides cut off, to second order in the distance of the two. Exact for
+/// planes.
 /// For degree 2, with `grazes`, the two faces that the plane is nearly parallel to cut the graph
 /// itself where that matters.
 template <int kDegree>

@@ -83,7 +83,7 @@ class GrazedCell {
             plane.in_space.point,
             plus(scaled(plane.in_space.along_s, cosine_), scaled(plane.in_space.along_t, sine_)),
             minus(scaled(plane.in_space.along_t, cosine_), scaled(plane.in_space.along_s, sine_))},
-        section_(turned_, size, static_cast<int>(axis)) {
+        section_(turned_, size, axis) {
     const double k_xx = graph.polynomial.c[3];
     const double k_xy = graph.polynomial.c[4];
     const double k_yy = graph.polynomial.c[5];
@@ -226,11 +226,8 @@ class GrazedCell {
     double result = 0.0;
     for (std::size_t n = 0; n < section_.corners(); ++n) {
       const auto [from, to, face] = section_.edge(n);
-      if (face == PlaneSection::kNoFace) {
-        continue;
-      }
-      const double length = std::hypot(to.s - from.s, to.t - from.t);
-      const double slope = plane_.slope_along(axis_of(face));
+      const double length = length_of(section_.edge(n));
+      const double slope = plane_.slopes[axis_of(face)];
       if (length < kNoLength || slope < kNoSlope) {
         continue;
       }
@@ -269,7 +266,7 @@ bool add_grazing_share(const PlaneGraph<2>& graph, const TangentPlane<2>& plane,
   for (std::size_t other = 1; other < 3; ++other) {
     axis = std::abs(graph.frame[2][other]) > std::abs(graph.frame[2][axis]) ? other : axis;
   }
-  const double slope = plane.slope_along(axis);
+  const double slope = plane.slopes[axis];
   if (!(slope < kGrazing)) {
     return false;
   }

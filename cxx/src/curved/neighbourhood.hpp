@@ -20,8 +20,9 @@ inline constexpr std::int64_t kCurvatureReach = 6;
 /// size() gives these in the unit of local_surface.hpp.
 class Neighbourhood : public CellsAround<kCurvatureReach> {
  public:
-  Neighbourhood(const BlockField& field, const Index3& cell)
-      : CellsAround(field, cell), purity_tolerance_(field.purity_tolerance) {
+  /// \param reach of columns; cells further away are not looked at
+  Neighbourhood(const BlockField& field, const Index3& cell, std::int64_t reach)
+      : CellsAround(field, cell, reach), purity_tolerance_(field.purity_tolerance) {
     const Vec3 own = field.cell_size(cell);
     length_ = std::cbrt(own[0]) * std::cbrt(own[1]) * std::cbrt(own[2]);
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -1,22 +1,50 @@
 #include "curved/plane_section.hpp"
 
-#include <algorithm>
+#include <cmath>
 
 namespace difmesh::detail {
 
-PlaneSection::PlaneSection(const PlaneInSpace& plane, const Vec3& size, int without) {
-  // A square that no box of this size reaches beyond, wherever the plane passes it.
-  const double far = 4.0 * std::max({size[0], size[1], size[2]}) + 2.0;
-  corners_[0] = {{-far, -far}, kNoFace};
-  corners_[1] = {{far, -far}, kNoFace};
-  corners_[2] = {{far, far}, kNoFace};
-  corners_[3] = {{-far, far}, kNoFace};
-  count_ = 4;
-  for (BoxFace face = 0; face < 6 && count_ > 0; ++face) {
-    if (face / 2 != without) {
-      cut(plane, size, face);
-    }
+namespace {
+
+// That the plane's normal is most nearly along.
+std::size_t main_axis(const PlaneInSpace& plane) {
+  const Vec3 normal = cross(plane.along_s, plane.along_t);
+  std::size_t axis = 0;
+  for (std::size_t other = 1; other < 3; ++other) {
+    axis = std::abs(normal[other]) > std::abs(normal[axis]) ? other : axis;
   }
+  return axis;
+}
+
+}  // namespace
+
+PlaneSection::PlaneSection(const PlaneInSpace& plane, const Vec3& size)
+    : PlaneSection(plane, size, main_axis(plane)) {
+  const std::size_t axis = main_axis(plane);
+  cut(plane, size, static_cast<BoxFace>(2 * axis));
+  cut(plane, size, static_cast<BoxFace>(2 * axis + 1));
+}
+
+// The corners are where the plane meets the four edges along the axis, or their continuations.
+PlaneSection::PlaneSection(const PlaneInSpace& plane, const Vec3& size, std::size_t axis)
+    : count_(4) {
+  const std::size_t u = (axis + 1) % 3;
+  const std::size_t v = (axis + 2) % 3;
+  const double determinant =
+      plane.along_s[u] * plane.along_t[v] - plane.along_t[u] * plane.along_s[v];
+  const double inverse = 1.0 / determinant;
+  const auto corner = [&](double at_u, double at_v) {
+    const double by_u = at_u * size[u] - plane.point[u];
+    const double by_v = at_v * size[v] - plane.point[v];
+    return PlanePoint{(by_u * plane.along_t[v] - by_v * plane.along_t[u]) * inverse,
+                      (by_v * plane.along_s[u] - by_u * plane.along_s[v]) * inverse};
+  };
+  const auto face = [](std::size_t of, int high) { return static_cast<BoxFace>(of) * 2 + high; };
+  const bool turns = determinant > 0.0;  // counter-clockwise from u to v
+  corners_[0] = {corner(-0.5, -0.5), turns ? face(v, 0) : face(u, 0)};
+  corners_[1] = {turns ? corner(0.5, -0.5) : corner(-0.5, 0.5), turns ? face(u, 1) : face(v, 1)};
+  corners_[2] = {corner(0.5, 0.5), turns ? face(v, 1) : face(u, 1)};
+  corners_[3] = {turns ? corner(-0.5, 0.5) : corner(0.5, -0.5), turns ? face(u, 0) : face(v, 0)};
 }
 
 // Keeps what lies within the face (Sutherland and Hodgman).

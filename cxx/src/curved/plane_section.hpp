@@ -33,8 +33,7 @@ using BoxFace = int;
 /// A convex polygon, counter-clockwise in (s, t).
 class PlaneSection {
  public:
-  static constexpr int kNoFace = -1;
-  static constexpr std::size_t kMostCorners = 12;
+  static constexpr std::size_t kMostCorners = 8;
 
   struct Edge {
     PlanePoint from;
@@ -42,8 +41,10 @@ class PlaneSection {
     BoxFace face;
   };
 
-  /// \param without an axis whose faces do not cut, or kNoFace
-  PlaneSection(const PlaneInSpace& plane, const Vec3& size, int without = kNoFace);
+  /// Within all faces of the box.
+  PlaneSection(const PlaneInSpace& plane, const Vec3& size);
+  /// Within the four faces across the other two axes. \pre the plane is not parallel to the axis
+  PlaneSection(const PlaneInSpace& plane, const Vec3& size, std::size_t axis);
 
   [[nodiscard]] std::size_t corners() const { return count_; }
   [[nodiscard]] Edge edge(std::size_t n) const {

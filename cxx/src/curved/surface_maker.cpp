@@ -91,7 +91,8 @@ LocalSurface SurfaceMaker<T>::operator()(const Index3& cell) const {
   if (!field_.is_interfacial(fraction)) {
     return {};
   }
-  const Neighbourhood cells(field_, cell);
+  const Neighbourhood cells(field_, cell,
+                            kind_ == CellSurfaceKind::curvature ? kCurvatureReach : kPositionReach);
   const UnitNormal normal = is_at_open_side(cells) ? lvira_(cell) : youngs_(cell);
   if (normal.source == NormalSource::none) {
     return {};

@@ -20,6 +20,12 @@ struct GaussPoint {
 inline constexpr std::array<GaussPoint, 3> kGauss3{
     {{0.11270166537925831, 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.88729833462074169, 5.0 / 18.0}}};
 
+[[nodiscard]] inline double length_of(const PlaneSection::Edge& edge) {
+  const double along_s = edge.to.s - edge.from.s;
+  const double along_t = edge.to.t - edge.from.t;
+  return std::sqrt(along_s * along_s + along_t * along_t);
+}
+
 template <int kDegree>
 struct TangentPlane {
   double xi;  ///< of the box's centre
@@ -31,6 +37,7 @@ struct TangentPlane {
   double offset;          ///< normal · (x - centre) = offset
   double reach;           ///< offsets of this size and more miss the box
   PlaneInSpace in_space;  ///< by ξ and η from the box's centre
+  Vec3 slopes;  ///< by axis, how fast the coordinate changes in the plane at most, by ξ and η
 
   TangentPlane(const PlaneGraph<kDegree>& graph, const Box& box) {
     const auto& [xi_axis, eta_axis, zeta_axis] = graph.frame;
@@ -48,13 +55,11 @@ struct TangentPlane {
       in_space.point[a] = zeta_axis[a] * offset;
       in_space.along_s[a] = xi_axis[a] + zeta_axis[a] * by_xi;
       in_space.along_t[a] = eta_axis[a] + zeta_axis[a] * by_eta;
+      slopes[a] = std::sqrt(in_space.along_s[a] * in_space.along_s[a] +
+                            in_space.along_t[a] * in_space.along_t[a]);
     }
   }
 
-  /// How fast a coordinate of space changes in the plane at most, by ξ and η.
-  [[nodiscard]] double slope_along(std::size_t axis) const {
-    return std::hypot(in_space.along_s[axis], in_space.along_t[axis]);
-  }
   /// Of the graph above the plane, along ζ.
   [[nodiscard]] double distance_to(const PlaneGraph<kDegree>& graph, double s, double t) const {
     return graph.polynomial.value(xi + s, eta + t) - (value + by_xi * s + by_eta * t);

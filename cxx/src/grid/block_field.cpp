@@ -52,7 +52,8 @@ void check_options(const Options& options) {
 
 // Ghost layers must reach as far as the stencils do, or to the end of the domain.
 AxisCells check_axis(std::size_t axis, const Block& block, const Grid& grid,
-                     const Boundary& boundary) {
+                     const Options& options) {
+  const Boundary& boundary = options.boundary;
   const std::int64_t count = grid.dims[axis];
   const std::int64_t offset = block.offset[axis];
   const std::int64_t dims = block.dims[axis];
@@ -65,9 +66,9 @@ AxisCells check_axis(std::size_t axis, const Block& block, const Grid& grid,
   }
   const bool periodic = boundary[2 * axis] == Side::periodic;
   const bool whole = dims == count && low == 0 && high == 0;
-  const std::int64_t below = periodic && !whole ? kGhostLayers : std::min(kGhostLayers, offset);
-  const std::int64_t above =
-      periodic && !whole ? kGhostLayers : std::min(kGhostLayers, count - offset - dims);
+  const std::int64_t layers = ghost_layers(options.placement);
+  const std::int64_t below = periodic && !whole ? layers : std::min(layers, offset);
+  const std::int64_t above = periodic && !whole ? layers : std::min(layers, count - offset - dims);
   if (low < below || high < above) {
     fail(where + ": " + std::to_string(low) + " and " + std::to_string(high) +
          " ghost layers are given; " + std::to_string(below) + " and " + std::to_string(above) +
@@ -140,7 +141,7 @@ void check_block(const Block& block, const Grid& grid, const Options& options) {
   validate(grid);
   check_options(options);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    (void)check_axis(axis, block, grid, options.boundary);
+    (void)check_axis(axis, block, grid, options);
   }
 }
 
@@ -169,7 +170,7 @@ BlockField make_block_field(const FieldView& field, const Block& block, const Gr
   result.view = field;
   result.purity_tolerance = options.purity_tolerance;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    result.axes[axis] = check_axis(axis, block, grid, options.boundary);
+    result.axes[axis] = check_axis(axis, block, grid, options);
     const std::int64_t in_memory = result.axes[axis].high - result.axes[axis].low;
     if (field.dims[axis] != in_memory) {
       fail(std::string("field: ") + std::to_string(field.dims[axis]) + " cells in " +

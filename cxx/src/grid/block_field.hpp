@@ -86,6 +86,16 @@ struct BlockField {
   }
   [[nodiscard]] double width(std::size_t axis, std::int64_t index) const;
 
+  /// True for the block's cells, which are no ghosts.
+  [[nodiscard]] bool is_own(const Index3& cell) const {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::int64_t local = cell[axis] - block.offset[axis];
+      if (local < 0 || local >= block.dims[axis]) {
+        return false;
+      }
+    }
+    return true;
+  }
   [[nodiscard]] Side side(int axis, int high) const {
     return boundary[static_cast<std::size_t>(2 * axis + high)];
   }

@@ -167,6 +167,23 @@ struct EdgeWord {
   [[nodiscard]] int count() const { return count_bits(x) + count_bits(y) + count_bits(z); }
 };
 
+/// Calls visit(bit, axis) for the crossed edges of a word in the order of their ids.
+template <class Visit>
+void for_each_edge(const EdgeWord& word, const Visit& visit) {
+  for (std::uint64_t left = word.any(); left != 0; left &= left - 1) {
+    const int bit = std::countr_zero(left);
+    if ((word.x >> bit & 1) != 0) {
+      visit(bit, 0);
+    }
+    if ((word.y >> bit & 1) != 0) {
+      visit(bit, 1);
+    }
+    if ((word.z >> bit & 1) != 0) {
+      visit(bit, 2);
+    }
+  }
+}
+
 /// The crossed dual edges that start at the nodes of one row.
 class EdgeRow {
  public:

@@ -20,6 +20,9 @@ void merge(Report& whole, const Report& part) {
   detail::set_newton_steps(steps, whole);
   whole.newton_steps_max = std::max(whole.newton_steps_max, part.newton_steps_max);
   whole.non_monotone_edges += part.non_monotone_edges;
+  whole.curved_cells += part.curved_cells;
+  whole.curved_vertices += part.curved_vertices;
+  whole.moved_centres += part.moved_centres;
   whole.closed = whole.closed && part.closed;
   whole.enclosed_volume = whole.closed ? whole.enclosed_volume + part.enclosed_volume : 0.0;
   whole.seconds.classify += part.seconds.classify;

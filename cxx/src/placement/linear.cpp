@@ -9,6 +9,6 @@ double linear_position(double outer, double inner) {
   return (0.5 - outer) / (inner - outer);
 }
 
-const PlacementPart kLinear{false, 1, place_each<linear_position>};
+const PlacementPart kLinear{false, false, 1, place_each<linear_position>};
 
 }  // namespace difmesh::detail

@@ -43,6 +43,6 @@ double manson_position(double outer, double inner) {
   return 1.5 - outer - inner;
 }
 
-const PlacementPart kManson{false, 1, place_each<manson_position>};
+const PlacementPart kManson{false, false, 1, place_each<manson_position>};
 
 }  // namespace difmesh::detail

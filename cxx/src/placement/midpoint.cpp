@@ -9,6 +9,6 @@ double midpoint_position(double, double) {
 
 }  // namespace
 
-const PlacementPart kMidpoint{false, 1, place_each<midpoint_position>};
+const PlacementPart kMidpoint{false, false, 1, place_each<midpoint_position>};
 
 }  // namespace difmesh::detail

@@ -21,6 +21,8 @@ struct PlacementPart {
   /// Whether a vertex lies where the window over the planes of both cells is half full (see
   /// planes/window.hpp). Else it follows from their fractions alone, and place() says where.
   bool by_planes;
+  /// Whether the curved surfaces of the cells come before the window; needs by_planes.
+  bool by_surfaces;
   /// Layers of cells beyond a block of which it reads what by_planes says.
   std::int64_t reach;
   /// Null where it is by planes: surface/window_queue.hpp takes those edges in batches.
@@ -38,13 +40,14 @@ void place_each(const FractionBatch& edges) {
 /// \pre a value of the enumeration
 [[nodiscard]] const PlacementPart& placement_part(Placement placement);
 
-/// Layers of cells beyond a block on which its mesh depends, at most kGhostLayers.
+/// Layers of cells beyond a block on which its mesh depends, at most ghost_layers(placement).
 /// \pre placement and normals are values of their enumerations
-[[nodiscard]] std::int64_t ghost_layers(const Options& options);
+[[nodiscard]] std::int64_t layers_read(const Options& options);
 
 extern const PlacementPart kMidpoint;
 extern const PlacementPart kLinear;
 extern const PlacementPart kManson;
 extern const PlacementPart kPlic;
+extern const PlacementPart kCurved;
 
 }  // namespace difmesh::detail

@@ -5,6 +5,6 @@
 
 namespace difmesh::detail {
 
-const PlacementPart kPlic{true, 1, nullptr};
+const PlacementPart kPlic{true, false, 1, nullptr};
 
 }  // namespace difmesh::detail

@@ -14,9 +14,12 @@ namespace difmesh::detail {
 template <std::int64_t kReach>
 class CellsAround {
  public:
-  CellsAround(const BlockField& field, const Index3& cell) : field_(field) {
+  /// \param reach at most kReach: what is further away is not there
+  CellsAround(const BlockField& field, const Index3& cell, std::int64_t reach = kReach)
+      : field_(field) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      for (std::int64_t step = -kReach; step <= kReach; ++step) {
+      resolved_[axis].fill(kMissing);
+      for (std::int64_t step = -reach; step <= reach; ++step) {
         resolved_[axis][static_cast<std::size_t>(step + kReach)] =
             field.axes[axis].resolve(cell[axis] + step);
       }

@@ -27,6 +27,9 @@ class DualGrid {
   /// the plane of their cell says so, which lets the surface run on to the face.
   void set_planes(PlaneTable planes, bool extend);
 
+  /// Puts a node on a side.
+  void settle(const Index3& node, bool inside) { nodes_.set(node, inside); }
+
   [[nodiscard]] const BlockField& field() const { return *field_; }
   [[nodiscard]] const NodeBits& nodes() const { return nodes_; }
   [[nodiscard]] const PlaneTable& planes() const { return planes_; }

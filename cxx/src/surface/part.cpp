@@ -2,15 +2,19 @@
 
 #include <limits>
 #include <new>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
 #include "cells/memory_plan.hpp"
+#include "curved/surface_table.hpp"
 #include "difmesh/error.hpp"
 #include "difmesh/out_of_memory.hpp"
 #include "placement/placement.hpp"
+#include "surface/curved_nodes.hpp"
+#include "surface/curved_vertices.hpp"
 #include "surface/dual_grid.hpp"
 #include "surface/phase.hpp"
 #include "surface/plane_table.hpp"
@@ -27,20 +31,32 @@ void run_phases(const BlockField& field, const Options& options, const char*& no
   Stopwatch whole;
   Stopwatch watch;
   Workers workers(options.threads);
-  Phases phases(workers, options.progress);
+  const PlacementPart& placement = placement_part(options.placement);
+  Phases phases(workers, options.progress, placement.by_surfaces ? kWeightWithSurfaces : 1.0);
 
-  const bool with_planes = placement_part(options.placement).by_planes;
+  const bool with_planes = placement.by_planes;
   LayerPlanes layer_planes(field, with_planes);
   now = kInsideBits.makes;
   ClassifiedNodes classified = classify(field, {options.overshoot_bound, layer_planes},
                                         kInsideBits.weight, phases, sums.facts);
-  DualGrid grid(field, std::move(classified.nodes));
   report.seconds.classify += watch.lap();
+
+  now = kSurfaces.makes;
+  std::optional<SurfaceTable> surfaces;
+  if (placement.by_surfaces) {
+    surfaces.emplace(field, phases, kSurfaces.weight);
+    report.curved_cells += surfaces->own_surfaces();
+    report.moved_centres += settle_centres(*surfaces, classified.nodes);
+  }
+  DualGrid grid(field, std::move(classified.nodes));
 
   now = kPlanes.makes;
   if (with_planes || options.vertex_normals) {
     grid.set_planes(make_planes(field, grid.nodes(), classified.row_ends, options, phases, report),
                     with_planes);
+    if (surfaces) {
+      settle_faces(*surfaces, grid);
+    }
   }
   report.seconds.normals += watch.lap();
 
@@ -56,6 +72,12 @@ void run_phases(const BlockField& field, const Options& options, const char*& no
   now = kVertices.makes;
   place_vertices(grid, options, counts.vertex_start, phases, mesh, report);
   watch.lap();  // of planes and of vertices, which take turns: they are in the report
+  if (surfaces) {
+    now = kCurving.makes;
+    report.curved_vertices +=
+        curve_vertices(*surfaces, grid, options, counts.vertex_start, phases, mesh);
+    report.seconds.vertices += watch.lap();
+  }
 
   now = kTriangles.makes;
   connect(grid, counts, phases, mesh);

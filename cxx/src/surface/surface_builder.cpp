@@ -26,9 +26,6 @@ constexpr std::int64_t kLeastLayers = 16;
   throw Error(ErrorCode::invalid_argument, "builder: " + message);
 }
 
-// Layers on both sides of those that are worked on.
-constexpr std::int64_t kAround = 2 * kGhostLayers;
-
 }  // namespace
 
 class SurfaceBuilder::Work {
@@ -38,6 +35,7 @@ class SurfaceBuilder::Work {
         options_(options),
         part_(builder.part.value_or(Block{{0, 0, 0}, grid.dims, {0, 0, 0}, {0, 0, 0}})),
         is_whole_(!builder.part),
+        ghosts_(ghost_layers(options.placement)),
         sink_(std::move(sink)),
         seam_(grid.dims, options.edge_ids, [this](const MeshPortion& portion) { give(portion); }),
         sums_(grid_) {
@@ -126,25 +124,25 @@ class SurfaceBuilder::Work {
   void take(const FieldView& slab) {
     const std::int64_t begin = given_;
     const std::int64_t layers = slab.dims[2];
-    const bool is_thick = layers >= at_once_ + kAround || layers == size_[2];
+    const bool is_thick = layers >= at_once_ + 2 * ghosts_ || layers == size_[2];
     if (!is_thick) {
       buffer_.append(slab, 0, layers);
       given_ += layers;
       if (ready() - done() >= at_once_ || missing() == 0) {
         work_on(buffer_.view(), buffer_.first());
-        buffer_.drop_before(done() - kGhostLayers);
+        buffer_.drop_before(done() - ghosts_);
       }
       return;
     }
     if (begin > 0) {
       // What waits is worked on with the first layers of the slab.
-      buffer_.append(slab, 0, kAround);
-      given_ += kAround;
+      buffer_.append(slab, 0, 2 * ghosts_);
+      given_ += 2 * ghosts_;
       work_on(buffer_.view(), buffer_.first());
     }
     given_ = begin + layers;
     work_on(slab, begin);
-    const std::int64_t kept = std::clamp<std::int64_t>(done() - kGhostLayers, begin, given_);
+    const std::int64_t kept = std::clamp<std::int64_t>(done() - ghosts_, begin, given_);
     buffer_.restart(kept);
     buffer_.append(slab, kept - begin, given_ - kept);
   }
@@ -152,7 +150,7 @@ class SurfaceBuilder::Work {
   // The end of the layers that can be worked on.
   [[nodiscard]] std::int64_t ready() const {
     const std::int64_t end = part_.ghost_low[2] + part_.dims[2];
-    return missing() == 0 ? end : std::clamp(given_ - kGhostLayers, part_.ghost_low[2], end);
+    return missing() == 0 ? end : std::clamp(given_ - ghosts_, part_.ghost_low[2], end);
   }
   [[nodiscard]] std::int64_t done() const { return part_.ghost_low[2] + done_; }
 
@@ -163,8 +161,8 @@ class SurfaceBuilder::Work {
     if (begin >= end) {
       return;
     }
-    const std::int64_t low = std::max(begin - kGhostLayers, std::int64_t{0});
-    const std::int64_t high = std::min(end + kGhostLayers, given_);
+    const std::int64_t low = std::max(begin - ghosts_, std::int64_t{0});
+    const std::int64_t high = std::min(end + ghosts_, given_);
     Block block = part_;
     block.offset[2] = part_.offset[2] + done_;
     block.dims[2] = end - begin;
@@ -189,6 +187,7 @@ class SurfaceBuilder::Work {
   Options options_;
   Block part_;
   bool is_whole_;
+  std::int64_t ghosts_;  // layers on both sides of those that are worked on
   MeshSink sink_;
   bool in_sink_ = false;
   detail::Seam seam_;

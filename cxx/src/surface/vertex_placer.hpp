@@ -53,6 +53,17 @@ struct DualEdge {
   return edge;
 }
 
+/// True for nodes that are cells of the blocks after this one: their edges are counted there.
+[[nodiscard]] inline bool is_of_next_block(const BlockField& field, const Index3& node) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (node[axis] > field.block.dims[axis] &&
+        field.block.offset[axis] + field.block.dims[axis] < field.grid.dims[axis]) {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// Places the vertices of one kind of options on one dual grid. Thread safety: const calls are
 /// safe.
 class VertexPlacer {

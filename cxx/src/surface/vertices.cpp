@@ -17,23 +17,6 @@
 namespace difmesh::detail {
 namespace {
 
-// Calls visit(bit, axis) for the crossed edges of a word in the order of their ids.
-template <class Visit>
-void for_each_edge(const EdgeWord& word, const Visit& visit) {
-  for (std::uint64_t left = word.any(); left != 0; left &= left - 1) {
-    const int bit = std::countr_zero(left);
-    if ((word.x >> bit & 1) != 0) {
-      visit(bit, 0);
-    }
-    if ((word.y >> bit & 1) != 0) {
-      visit(bit, 1);
-    }
-    if ((word.z >> bit & 1) != 0) {
-      visit(bit, 2);
-    }
-  }
-}
-
 // Places the vertices of rows of nodes, on a field of T.
 template <class T>
 class RowPlacer {
@@ -98,7 +81,8 @@ class RowPlacer {
           return;
         }
         const DualEdge edge = edge_from(node, axis, upper_inside);
-        const double share = placer_.place(edge, is_of_next(node) ? counts_of_next_ : counts_);
+        const double share =
+            placer_.place(edge, is_of_next_block(grid_.field(), node) ? counts_of_next_ : counts_);
         writer_.write(vertex, node, axis, placer_.position(edge, share));
         if (writer_.with_normals()) {
           writer_.write_normal(vertex, placer_.normal(edge, share));
@@ -155,18 +139,6 @@ class RowPlacer {
     return (local == grid_.nodes().first()[axis] && field.block.offset[axis] == 0) ||
            (local == grid_.nodes().last()[axis] &&
             field.block.offset[axis] + field.block.dims[axis] == field.grid.dims[axis]);
-  }
-
-  // True for nodes that are cells of the blocks after this one: their edges are counted there.
-  [[nodiscard]] bool is_of_next(const Index3& node) const {
-    const BlockField& field = grid_.field();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (node[axis] > field.block.dims[axis] &&
-          field.block.offset[axis] + field.block.dims[axis] < field.grid.dims[axis]) {
-        return true;
-      }
-    }
-    return false;
   }
 
   // The edges of a word, all between cells of the block; returns the number of the vertex after

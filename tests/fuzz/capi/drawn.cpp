@@ -280,7 +280,7 @@ void draw_sides(Input& input, std::int32_t (&sides)[6]) {
 
 dif_options draw_options(Input& input, const Field& field) {
   dif_options options = prepared(dif_options_init);
-  options.placement = input.choice(DIF_PLACEMENT_PLIC);
+  options.placement = input.choice(DIF_PLACEMENT_CURVED);
   options.normals = input.choice(DIF_NORMALS_LVIRA);
   // These search for each plane: what they do with large fields, they do with small ones.
   if (field.cells() > 27 &&
