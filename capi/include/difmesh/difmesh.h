@@ -390,12 +390,12 @@ DIF_API dif_status dif_plane_arrays_init(dif_plane_arrays* arrays, uint64_t stru
 DIF_API dif_status dif_field_planes(const dif_field* field, const dif_options* options,
                                     const dif_plane_arrays* arrays);
 
-/* The interfacial cells of a field, purity_tolerance < fraction < 1 - purity_tolerance, in the order
- * z, y, x. `count` gets their number; `cells`, three indices each, as many of them as there is room
- * for, `capacity`. `cells` may be NULL, with a capacity of 0, to ask for the number. The whole field
- * is checked, as dif_reconstruct() does.
- * Errors: as dif_reconstruct(), and INVALID_ARGUMENT where there is too little room; `count` and what
- * fits are there then, too. Cost: two passes over the field. Since 0.2. */
+/* The interfacial cells of a field, purity_tolerance < fraction < 1 - purity_tolerance, in the
+ * order z, y, x. `count` gets their number; `cells`, three indices each, as many of them as there
+ * is room for, `capacity`. `cells` may be NULL, with a capacity of 0, to ask for the number. The
+ * whole field is checked, as dif_reconstruct() does.
+ * Errors: as dif_reconstruct(), and INVALID_ARGUMENT where there is too little room; `count` and
+ * what fits are there then, too. Cost: two passes over the field. Since 0.2. */
 DIF_API dif_status dif_interfacial_cells(const dif_field* field, const dif_options* options,
                                          int64_t capacity, int64_t cells[], int64_t* count);
 
