@@ -12,6 +12,7 @@ What the library refuses is raised as Error or one of its subclasses, with the l
 """
 
 from . import _library
+from ._cell_surfaces import CellSurfaces, cell_curvature, cell_surfaces
 from ._distance import Distance, Statistics, distance, distance_both_ways
 from ._errors import (
     CancelledError,
@@ -43,6 +44,7 @@ __version__ = "0.2.0"
 __all__ = [
     "GHOST_LAYERS",
     "CancelledError",
+    "CellSurfaces",
     "Curvature",
     "Distance",
     "Error",
@@ -66,7 +68,9 @@ __all__ = [
     "UnsupportedError",
     "Warning",
     "WriteReport",
+    "cell_curvature",
     "cell_planes",
+    "cell_surfaces",
     "curvature",
     "distance",
     "distance_both_ways",
