@@ -216,6 +216,41 @@ module difmesh_c
       type(dif_plane_arrays), intent(in) :: arrays
     end function
 
+    integer(c_int32_t) function dif_interfacial_cells(field, options, capacity, cells, &
+        count) bind(c)
+      import :: c_int32_t, c_int64_t, dif_field, dif_options
+      type(dif_field), intent(in) :: field
+      type(dif_options), intent(in), optional :: options
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(inout), optional :: cells(*)
+      integer(c_int64_t), intent(inout) :: count
+    end function
+
+    integer(c_int32_t) function dif_surface_arrays_init(arrays, struct_size) bind(c)
+      import :: c_int32_t, c_int64_t, dif_surface_arrays
+      type(dif_surface_arrays), intent(inout) :: arrays
+      integer(c_int64_t), value :: struct_size
+    end function
+
+    integer(c_int32_t) function dif_cell_surfaces(field, options, kind, count, cells, &
+        arrays) bind(c)
+      import :: c_int32_t, c_int64_t, dif_field, dif_options, dif_surface_arrays
+      type(dif_field), intent(in) :: field
+      type(dif_options), intent(in), optional :: options
+      integer(c_int32_t), value :: kind
+      integer(c_int64_t), value :: count
+      integer(c_int64_t), intent(in) :: cells(*)
+      type(dif_surface_arrays), intent(in) :: arrays
+    end function
+
+    integer(c_int32_t) function dif_cell_curvature(field, options, mean, strides) bind(c)
+      import :: c_double, c_int32_t, c_int64_t, dif_field, dif_options
+      type(dif_field), intent(in) :: field
+      type(dif_options), intent(in), optional :: options
+      real(c_double), intent(inout) :: mean(*)
+      integer(c_int64_t), intent(in), optional :: strides(3)
+    end function
+
     integer(c_int32_t) function dif_grid_init(grid, struct_size, dims) bind(c)
       import :: c_int32_t, c_int64_t, dif_grid
       type(dif_grid), intent(inout) :: grid

@@ -8,8 +8,8 @@ module difmesh_fields
   implicit none
   private
 
-  public :: dif_view, dif_make_grid, dif_set_faces, dif_planes, dif_mollified, dif_write_field
-  public :: dif_fractions_of_values, dif_fractions_of_labels
+  public :: dif_view, dif_make_grid, dif_set_faces, dif_planes, dif_curvature, dif_mollified
+  public :: dif_write_field, dif_fractions_of_values, dif_fractions_of_labels
 
   ! field = dif_view(c, spacing, origin, ghosts): what the library is told of a solver's array
   ! c(i, j, k) of real(8), real(4), or 1- or 2-byte integers, whose bits count as unsigned, 0 to 255
@@ -311,6 +311,38 @@ contains
       if (all(arrays%strides == 0)) arrays%strides = strides
       fits = fits .and. all(arrays%strides == strides)
     end subroutine
+  end subroutine
+
+  ! Mean curvature of all interfacial cells into the solver's array kappa(i, j, k), positive where
+  ! the material is convex; interfacial cells where none can be told get NaN, other cells 0. See
+  ! dif_cell_curvature in difmesh.h. `ghosts` layers of kappa, as of c in dif_view, are left alone:
+  !   call dif_curvature(dif_view(c, ghosts=1), kappa, status, ghosts=1)
+  subroutine dif_curvature(field, kappa, status, options, message, ghosts)
+    type(dif_field), intent(in) :: field
+    real(c_double), intent(inout), target :: kappa(:, :, :)
+    integer(c_int32_t), intent(out) :: status
+    type(dif_options), intent(in), optional :: options
+    character(*), intent(inout), optional :: message
+    integer, intent(in), optional :: ghosts
+    real(c_double), contiguous, pointer :: first(:)
+    real(c_double) :: nothing(1)
+    integer(c_int64_t) :: apart(3)
+    integer :: i, n(3)
+    i = first_inside(ghosts)
+    if (i < 1 .or. any(shape(kappa, c_int64_t) - 2*(i - 1) /= field%dims)) then
+      call refuse('kappa must have the shape of the field, and `ghosts` layers around it', status, &
+        message)
+      return
+    end if
+    if (any(field%dims < 1)) then  ! which the library refuses
+      call finish(dif_cell_curvature(field, options, nothing), status, message)
+      return
+    end if
+    n = merge(i + 1, i, field%dims > 1)
+    apart = distances(c_loc(kappa(i, i, i)), &
+      [c_loc(kappa(n(1), i, i)), c_loc(kappa(i, n(2), i)), c_loc(kappa(i, i, n(3)))])
+    call c_f_pointer(c_loc(kappa(i, i, i)), first, [1])
+    call finish(dif_cell_curvature(field, options, first, apart/8), status, message)
   end subroutine
 
   ! The field, smoothed by a compact kernel, into values(nx, ny, nz); see dif_mollify in difmesh.h.

@@ -13,10 +13,10 @@ module difmesh_init
   ! library of another interface may refuse; struct_size then stays 0, and calls with it
   ! say so.
   interface dif_init
-    module procedure init_options, init_report, init_plane_arrays, init_function_options, &
-      init_function_report, init_triangle_options, init_triangle_report, init_shape_options, &
-      init_mollify_options, init_measure, init_distance_options, init_distance, &
-      init_curvature_options, init_smoothing_options, init_mesh_write_options, &
+    module procedure init_options, init_report, init_plane_arrays, init_surface_arrays, &
+      init_function_options, init_function_report, init_triangle_options, init_triangle_report, &
+      init_shape_options, init_mollify_options, init_measure, init_distance_options, &
+      init_distance, init_curvature_options, init_smoothing_options, init_mesh_write_options, &
       init_mesh_write_report, init_mesh_read_options, init_raw_layout, init_field_read_options, &
       init_field_write_options, init_block
   end interface
@@ -39,6 +39,12 @@ contains
     type(dif_plane_arrays), intent(out) :: struct
     integer(c_int32_t) :: ignored
     ignored = dif_plane_arrays_init(struct, c_sizeof(struct))
+  end subroutine
+
+  subroutine init_surface_arrays(struct)
+    type(dif_surface_arrays), intent(out) :: struct
+    integer(c_int32_t) :: ignored
+    ignored = dif_surface_arrays_init(struct, c_sizeof(struct))
   end subroutine
 
   subroutine init_function_options(struct)

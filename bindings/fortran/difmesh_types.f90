@@ -72,6 +72,17 @@ module difmesh_types
     dif_source_least_squares = 4
 
   integer(c_int32_t), parameter, public :: &
+    dif_surface_none = 0, &
+    dif_surface_heights_13 = 1, &
+    dif_surface_heights_25 = 2, &
+    dif_surface_quadratic_fit = 3, &
+    dif_surface_quartic_fit = 4
+
+  integer(c_int32_t), parameter, public :: &
+    dif_surfaces_for_position = 0, &
+    dif_surfaces_for_curvature = 1
+
+  integer(c_int32_t), parameter, public :: &
     dif_overlaps_default = 0, &
     dif_overlaps_union = 1, &
     dif_overlaps_refuse = 2, &
@@ -195,6 +206,22 @@ module difmesh_types
     type(c_ptr) :: offset = c_null_ptr
     type(c_ptr) :: source = c_null_ptr
     integer(c_int64_t) :: strides(3) = 0
+  end type
+
+  type, bind(c), public :: dif_surface_arrays
+    integer(c_int64_t) :: struct_size = 0
+    type(c_ptr) :: source = c_null_ptr
+    type(c_ptr) :: axis = c_null_ptr
+    type(c_ptr) :: foot = c_null_ptr
+    type(c_ptr) :: normal = c_null_ptr
+    type(c_ptr) :: mean = c_null_ptr
+    type(c_ptr) :: gaussian = c_null_ptr
+    type(c_ptr) :: largest = c_null_ptr
+    type(c_ptr) :: smallest = c_null_ptr
+    type(c_ptr) :: residual = c_null_ptr
+    type(c_ptr) :: length = c_null_ptr
+    type(c_ptr) :: frame = c_null_ptr
+    type(c_ptr) :: coefficients = c_null_ptr
   end type
 
   type, bind(c), public :: dif_grid

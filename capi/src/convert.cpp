@@ -128,6 +128,17 @@ void check_strides(const Index3& dims, const Index3& strides, std::int64_t eleme
   }
 }
 
+void check_result_strides(const Index3& dims, const Index3& strides, std::int64_t element_bytes,
+                          const char* name) {
+  check_strides(dims, strides, element_bytes, name);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (dims[axis] > 1 && strides[axis] == 0) {
+      fail_argument(std::string(name) + ": the stride in " + kAxisNames[axis] +
+                    " is 0: cells would overwrite each other");
+    }
+  }
+}
+
 namespace {
 
 /// Of dif_field or dif_grid.

@@ -66,6 +66,9 @@ void require_uniform(const dif_field* field, const char* why);
 /// Strides whose offsets, in bytes, do not fit into 62 bits are refused.
 void check_strides(const Index3& dims, const Index3& strides, std::int64_t element_bytes,
                    const char* name);
+/// The same of arrays to be written: strides of 0 along axes of more than one cell are refused too.
+void check_result_strides(const Index3& dims, const Index3& strides, std::int64_t element_bytes,
+                          const char* name);
 
 /// \pre not negative
 [[nodiscard]] std::size_t to_size(std::int64_t count);

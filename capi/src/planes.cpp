@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <vector>
 
 #include "boundary.hpp"
+#include "cell_lists.hpp"
 #include "convert.hpp"
 #include "difmesh/cell_planes.hpp"
 #include "difmesh/plane.hpp"
@@ -48,30 +48,17 @@ static_assert(to_source(NormalSource::none) == DIF_SOURCE_NONE &&
               to_source(NormalSource::height_function) == DIF_SOURCE_HEIGHT_FUNCTION &&
               to_source(NormalSource::least_squares) == DIF_SOURCE_LEAST_SQUARES);
 
-/// Runs cell_planes() over parts of a list and hands each part over with the index of its first
-/// cell. Progress goes from `done` to 1.
+/// Runs cell_planes() over a list, and hands each portion over with the index of its first cell.
 template <class Consume>
-void for_planes(const capi::Field& field, std::span<const Index3> cells, difmesh::Options options,
-                double done, const Consume& consume) {
-  const difmesh::Progress progress = options.progress;
-  std::vector<CellPlane> planes(std::min(cells.size(), kCellsAtOnce));
-  std::size_t begin = 0;
-  do {
-    const std::size_t count = std::min(cells.size() - begin, kCellsAtOnce);
-    if (progress) {
-      const auto all = static_cast<double>(std::max<std::size_t>(cells.size(), 1));
-      const double from = done + (1.0 - done) * static_cast<double>(begin) / all;
-      const double share = (1.0 - done) * static_cast<double>(count) / all;
-      const bool last = begin + count == cells.size();
-      options.progress = [&progress, from, share, last](double part) {
-        return progress(last && part == 1.0 ? 1.0 : from + share * part);
-      };
-    }
-    const std::span<CellPlane> part = std::span(planes).first(count);
-    cell_planes(field.view, field.grid, cells.subspan(begin, count), options, part);
-    consume(begin, part);
-    begin += count;
-  } while (begin < cells.size());
+void for_planes(const capi::Field& field, const capi::CellWork& work,
+                const difmesh::Options& options, const Consume& consume) {
+  capi::for_portions<CellPlane>(
+      work, options,
+      [&](std::span<const Index3> cells, const difmesh::Options& given,
+          std::span<CellPlane> planes) {
+        cell_planes(field.view, field.grid, cells, given, planes);
+      },
+      consume);
 }
 
 struct PlaneArrays {
@@ -109,13 +96,7 @@ PlaneArrays to_arrays(const dif_plane_arrays* arrays, const Index3& dims) {
   const PlaneArrays result{{given.normal_x, given.normal_y, given.normal_z, given.offset},
                            given.source,
                            capi::to_index(given.strides)};
-  capi::check_strides(dims, result.strides, sizeof(double), "arrays");
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (dims[axis] > 1 && result.strides[axis] == 0) {
-      capi::fail_argument("arrays: the stride in axis " + std::to_string(axis) +
-                          " is 0: cells would overwrite each other");
-    }
-  }
+  capi::check_result_strides(dims, result.strides, sizeof(double), "arrays");
   return result;
 }
 
@@ -159,11 +140,8 @@ dif_status dif_cell_planes(const dif_field* field, const dif_options* options, i
                            int32_t* sources) {
   return capi::guarded([&] {
     const capi::Field source = capi::to_field(field);
-    capi::required_array(cells, count, "cells");
-    static_assert(sizeof(Index3) == 3 * sizeof(std::int64_t));
-    const std::span<const Index3> list(reinterpret_cast<const Index3*>(cells),
-                                       capi::to_size(count));
-    for_planes(source, list, capi::to_options(options), 0.0,
+    const auto list = capi::to_cells(cells, count, source.grid.dims);
+    for_planes(source, {list, kCellsAtOnce}, capi::to_options(options),
                [&](std::size_t begin, std::span<const CellPlane> planes) {
                  for (std::size_t n = 0; n < planes.size(); ++n) {
                    const auto& [plane, from] = planes[n];
@@ -187,17 +165,32 @@ dif_status dif_field_planes(const dif_field* field, const dif_options* options,
     const capi::Field source = capi::to_field(field);
     const PlaneArrays results = to_arrays(arrays, source.grid.dims);
     const difmesh::Options given = capi::to_options(options);
-    difmesh::Options listing = given;
-    if (given.progress) {
-      listing.progress = [&](double share) { return given.progress(kShareOfListing * share); };
-    }
-    const auto cells = interfacial_cells(source.view, source.grid, listing);
+    const auto cells = capi::list_interfacial(source, given, kShareOfListing);
     results.clear(source.grid.dims);
-    for_planes(source, cells, given, kShareOfListing,
+    for_planes(source, {cells, kCellsAtOnce, kShareOfListing}, given,
                [&](std::size_t begin, std::span<const CellPlane> planes) {
                  for (std::size_t n = 0; n < planes.size(); ++n) {
                    results.set(cells[begin + n], planes[n]);
                  }
                });
+  });
+}
+
+dif_status dif_interfacial_cells(const dif_field* field, const dif_options* options,
+                                 int64_t capacity, int64_t* cells, int64_t* count) {
+  return capi::guarded([&] {
+    const capi::Field source = capi::to_field(field);
+    capi::required(count, "count");
+    capi::required_array(cells, capacity, "cells");
+    const auto found = interfacial_cells(source.view, source.grid, capi::to_options(options));
+    const std::size_t room = std::min(capi::to_size(capacity), found.size());
+    for (std::size_t n = 0; n < room; ++n) {
+      std::copy(found[n].begin(), found[n].end(), cells + 3 * n);
+    }
+    *count = static_cast<std::int64_t>(found.size());
+    if (cells != nullptr && room < found.size()) {
+      capi::fail_argument("there are " + std::to_string(found.size()) +
+                          " interfacial cells, but capacity is " + std::to_string(capacity));
+    }
   });
 }

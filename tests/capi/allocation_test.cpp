@@ -161,6 +161,9 @@ struct Fixture {
     arrays.strides[2] = 20;
     return dif_field_planes(&field, options, &arrays);
   }
+  [[nodiscard]] dif_status cell_curvature(const dif_options* options) {
+    return dif_cell_curvature(&field, options, planes.data(), nullptr);
+  }
 };
 
 }  // namespace
@@ -174,6 +177,7 @@ TEST_CASE("a failed allocation anywhere is a status and leaks nothing") {
     options.threads = threads;
     fail_each_allocation("dif_reconstruct", [&] { return f.reconstruct(&options); });
     fail_each_allocation("dif_field_planes", [&] { return f.field_planes(&options); });
+    fail_each_allocation("dif_cell_curvature", [&] { return f.cell_curvature(&options); });
     dif_function_options function_options = test::prepared(dif_function_options_init);
     function_options.threads = threads;
     fail_each_allocation("dif_fractions_from_shape", [&] {
@@ -274,6 +278,12 @@ TEST_CASE("cancelling at any progress call is a status and leaks nothing") {
     options.progress = Canceller::progress;
     options.progress_user = &canceller;
     return f.field_planes(&options);
+  });
+  cancel_each_time("dif_cell_curvature", [&](Canceller& canceller) {
+    dif_options options = test::prepared(dif_options_init);
+    options.progress = Canceller::progress;
+    options.progress_user = &canceller;
+    return f.cell_curvature(&options);
   });
   cancel_each_time("dif_fractions_from_shape", [&](Canceller& canceller) {
     dif_function_options options = test::prepared(dif_function_options_init);

@@ -261,6 +261,9 @@ void planes(Results& results, Probe& probe) {
     return dif_cell_planes(&field, &options, 3, cells.data(), numbers.data(), nullptr, nullptr);
   });
   results.add("cell planes", numbers);
+  results.call("cell curvature",
+               [&] { return dif_cell_curvature(&field, &options, offsets.data(), nullptr); });
+  results.add("cell curvature", offsets);
   const double spacing[3] = {0.1, 0.3, 0.7};
   const double normals[9] = {0.36, -0.48, 0.8, 1e-310, 1, 1e-200, 1e-9, 1e-9, 1};
   const double shares[3] = {0.3, 1e-310, 1};

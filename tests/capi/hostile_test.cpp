@@ -44,6 +44,8 @@ struct Bench {
   dif_mollify_options mollify_options = test::prepared(dif_mollify_options_init);
   dif_block block = test::prepared(dif_block_init);
   dif_plane_arrays arrays = test::prepared(dif_plane_arrays_init);
+  dif_surface_arrays surface_arrays = test::prepared(dif_surface_arrays_init);
+  std::int64_t strides[3] = {1, 9, 72};
   std::vector<double> numbers = std::vector<double>(3000, 0.5);
   std::vector<std::uint32_t> indices = std::vector<std::uint32_t>(3000, 0);
   std::int64_t cells[3] = {1, 2, 3};
@@ -133,6 +135,16 @@ dif_status create_shape(Bench& b) {
 }
 dif_status field_planes(Bench& b) {
   return dif_field_planes(&b.field, &b.options, &b.arrays);
+}
+dif_status cell_surfaces(Bench& b) {
+  return dif_cell_surfaces(&b.field, &b.options, DIF_SURFACES_FOR_CURVATURE, 1, b.cells,
+                           &b.surface_arrays);
+}
+dif_status interfacial_cells(Bench& b) {
+  return dif_interfacial_cells(&b.field, &b.options, 0, nullptr, &b.count);
+}
+dif_status cell_curvature(Bench& b) {
+  return dif_cell_curvature(&b.field, &b.options, b.numbers.data(), b.strides);
 }
 dif_status reconstruct_block(Bench& b) {
   dif_grid whole = test::c_grid({.dims = {9, 8, 7}});
@@ -460,6 +472,44 @@ std::vector<Case> plane_cases() {
       CHANGED(f, arrays.strides[1] = 0, kArgument, field_planes),
       CHANGED(f, arrays.strides[1] = kHuge, kArgument, field_planes),
       CHANGED(f, values.values[3] = kNaN, DIF_ERROR_INVALID_VALUE, field_planes),
+  };
+}
+
+std::vector<Case> surface_cases() {
+  const char* const s = "dif_cell_surfaces";
+  const char* const i = "dif_interfacial_cells";
+  const char* const c = "dif_cell_curvature";
+  return {
+      CALL("dif_surface_arrays_init", dif_surface_arrays_init(nullptr, 104), kArgument),
+      CALL("dif_surface_arrays_init", dif_surface_arrays_init(&b.surface_arrays, 4), kStruct),
+      CALL(s, dif_cell_surfaces(nullptr, nullptr, 1, 1, b.cells, &b.surface_arrays), kArgument),
+      CALL(s, dif_cell_surfaces(&b.field, nullptr, 1, 1, nullptr, &b.surface_arrays), kArgument),
+      CALL(s, dif_cell_surfaces(&b.field, nullptr, 1, -1, b.cells, &b.surface_arrays), kArgument),
+      CALL(s, dif_cell_surfaces(&b.field, nullptr, 1, 1, b.cells, nullptr), kArgument),
+      CALL(s, dif_cell_surfaces(&b.field, nullptr, 2, 1, b.cells, &b.surface_arrays), kArgument),
+      CALL(s, dif_cell_surfaces(&b.field, nullptr, -1, 1, b.cells, &b.surface_arrays), kArgument),
+      CHANGED(s, surface_arrays.struct_size = 1, kStruct, cell_surfaces),
+      CHANGED(s, cells[2] = 7, kArgument, cell_surfaces),
+      CHANGED(s, cells[0] = -1, kArgument, cell_surfaces),
+      CHANGED(s, cells[1] = kHuge, kArgument, cell_surfaces),
+      CHANGED(s, options.boundary[3] = 9, kArgument, cell_surfaces),
+      CHANGED(s, options.purity_tolerance = kNaN, kArgument, cell_surfaces),
+      CHANGED(s, field.spacing[1] = 0.0, kGrid, cell_surfaces),
+      CALL(i, dif_interfacial_cells(nullptr, nullptr, 0, nullptr, &b.count), kArgument),
+      CALL(i, dif_interfacial_cells(&b.field, nullptr, 0, nullptr, nullptr), kArgument),
+      CALL(i, dif_interfacial_cells(&b.field, nullptr, 1, nullptr, &b.count), kArgument),
+      CALL(i, dif_interfacial_cells(&b.field, nullptr, -1, b.cells, &b.count), kArgument),
+      CALL(i, dif_interfacial_cells(&b.field, nullptr, 1, b.cells, &b.count), kArgument),
+      CHANGED(i, options.struct_size = 1, kStruct, interfacial_cells),
+      CHANGED(i, values.values[3] = kNaN, DIF_ERROR_INVALID_VALUE, interfacial_cells),
+      CALL(c, dif_cell_curvature(nullptr, nullptr, b.numbers.data(), nullptr), kArgument),
+      CALL(c, dif_cell_curvature(&b.field, nullptr, nullptr, nullptr), kArgument),
+      CHANGED(c, strides[1] = 0, kArgument, cell_curvature),
+      CHANGED(c, strides[2] = kHuge, kArgument, cell_curvature),
+      CHANGED(c, options.struct_size = 1, kStruct, cell_curvature),
+      CHANGED(c, field.dims[0] = 0, kGrid, cell_curvature),
+      CHANGED(c, values.values[3] = kNaN, DIF_ERROR_INVALID_VALUE, cell_curvature),
+      CHANGED(c, field.faces_z = b.faces(2.0), kGrid, cell_curvature),
   };
 }
 
@@ -892,8 +942,8 @@ TEST_CASE("bad arguments give a status and a message at every function") {
   std::set<std::string> seen;
   std::size_t count = 0;
   for (const auto& cases : {field_cases(), mesh_cases(), smoothing_cases(), plane_cases(),
-                            fraction_cases(), block_cases(), distance_cases(), file_cases(),
-                            write_cases(), value_cases(), field_reading_cases()}) {
+                            surface_cases(), fraction_cases(), block_cases(), distance_cases(),
+                            file_cases(), write_cases(), value_cases(), field_reading_cases()}) {
     for (const Case& one : cases) {
       Bench bench;
       INFO(one.function << ": " << one.what);

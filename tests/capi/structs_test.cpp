@@ -118,6 +118,7 @@ TEST_CASE("init functions serve structs of every length") {
   check_init<dif_options>("options", dif_options_init);
   check_init<dif_report>("report", dif_report_init);
   check_init<dif_plane_arrays>("plane_arrays", dif_plane_arrays_init);
+  check_init<dif_surface_arrays>("surface_arrays", dif_surface_arrays_init);
   check_init<dif_function_options>("function_options", dif_function_options_init);
   check_init<dif_function_report>("function_report", dif_function_report_init);
   check_init<dif_triangle_options>("triangle_options", dif_triangle_options_init);

@@ -12,6 +12,7 @@ What the library refuses is raised as Error or one of its subclasses, with the l
 """
 
 from . import _library
+from ._cell_surfaces import CellSurfaces, cell_curvature, cell_surfaces
 from ._distance import Distance, Statistics, distance, distance_both_ways
 from ._errors import (
     CancelledError,
@@ -44,6 +45,7 @@ __all__ = [
     "CURVED_GHOST_LAYERS",
     "GHOST_LAYERS",
     "CancelledError",
+    "CellSurfaces",
     "Curvature",
     "Distance",
     "Error",
@@ -67,7 +69,9 @@ __all__ = [
     "UnsupportedError",
     "Warning",
     "WriteReport",
+    "cell_curvature",
     "cell_planes",
+    "cell_surfaces",
     "curvature",
     "distance",
     "distance_both_ways",

@@ -220,6 +220,16 @@ def values_array(values: Any) -> npt.NDArray[Any]:
     return array if _is_regular(array) else array.copy()
 
 
+def cell_array(cells: Any) -> npt.NDArray[np.int64]:
+    """A list of cells as the library takes it."""
+    given = np.asarray(cells)
+    if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in "iu":
+        raise ValueError(
+            f"cells must be integers of shape (n, 3), got {given.dtype} of shape {given.shape}"
+        )
+    return np.require(given, np.int64, ["A", "C"])
+
+
 def _is_regular(array: npt.NDArray[Any]) -> bool:
     """Whether strides are whole elements."""
     return array.flags.aligned and all(stride % array.itemsize == 0 for stride in array.strides)

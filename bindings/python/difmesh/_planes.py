@@ -12,7 +12,7 @@ import numpy.typing as npt
 from ._calls import Progress, Relay
 from ._errors import check
 from ._library import library
-from ._memory import Edges, Triple, address_of, field_struct, triple
+from ._memory import Edges, Triple, address_of, cell_array, field_struct, triple
 from ._options import to_options
 from ._structs import DifPlaneArrays
 
@@ -94,12 +94,7 @@ def cell_planes(
     The field is read only near these cells; NaN there count as some fraction. Results have the
     shapes (n, 3), (n,) and (n,). Other arguments and exceptions as for reconstruct().
     """
-    given = np.asarray(cells)
-    if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in "iu":
-        raise ValueError(
-            f"cells must be integers of shape (n, 3), got {given.dtype} of shape {given.shape}"
-        )
-    index = np.require(given, np.int64, ["A", "C"])
+    index = cell_array(cells)
     relay = Relay(progress)
     field, array = field_struct(fractions, spacing, origin, axes, edges)
     options = to_options(

@@ -58,6 +58,26 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
         c_int32,
         [POINTER(s.DifField), POINTER(s.DifOptions), POINTER(s.DifPlaneArrays)],
     ),
+    "dif_interfacial_cells": (
+        c_int32,
+        [POINTER(s.DifField), POINTER(s.DifOptions), c_int64, c_void_p, POINTER(c_int64)],
+    ),
+    "dif_surface_arrays_init": (c_int32, [POINTER(s.DifSurfaceArrays), c_uint64]),
+    "dif_cell_surfaces": (
+        c_int32,
+        [
+            POINTER(s.DifField),
+            POINTER(s.DifOptions),
+            c_int32,
+            c_int64,
+            c_void_p,
+            POINTER(s.DifSurfaceArrays),
+        ],
+    ),
+    "dif_cell_curvature": (
+        c_int32,
+        [POINTER(s.DifField), POINTER(s.DifOptions), c_void_p, POINTER(c_int64)],
+    ),
     "dif_grid_init": (c_int32, [POINTER(s.DifGrid), c_uint64, POINTER(c_int64)]),
     "dif_function_options_init": (c_int32, [POINTER(s.DifFunctionOptions), c_uint64]),
     "dif_function_report_init": (c_int32, [POINTER(s.DifFunctionReport), c_uint64]),

@@ -90,6 +90,24 @@ class DifPlaneArrays(Sized):
     ]
 
 
+class DifSurfaceArrays(Sized):
+    _fields_ = [
+        ("struct_size", c_uint64),
+        ("source", c_void_p),
+        ("axis", c_void_p),
+        ("foot", c_void_p),
+        ("normal", c_void_p),
+        ("mean", c_void_p),
+        ("gaussian", c_void_p),
+        ("largest", c_void_p),
+        ("smallest", c_void_p),
+        ("residual", c_void_p),
+        ("length", c_void_p),
+        ("frame", c_void_p),
+        ("coefficients", c_void_p),
+    ]
+
+
 class DifGrid(Sized):
     _fields_ = [
         ("struct_size", c_uint64),

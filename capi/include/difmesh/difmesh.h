@@ -395,6 +395,78 @@ DIF_API dif_status dif_plane_arrays_init(dif_plane_arrays* arrays, uint64_t stru
 DIF_API dif_status dif_field_planes(const dif_field* field, const dif_options* options,
                                     const dif_plane_arrays* arrays);
 
+/* The interfacial cells of a field, purity_tolerance < fraction < 1 - purity_tolerance, in the
+ * order z, y, x. `count` gets their number; `cells`, three indices each, as many of them as there
+ * is room for, `capacity`. `cells` may be NULL, with a capacity of 0, to ask for the number. The
+ * whole field is checked, as dif_reconstruct() does.
+ * Errors: as dif_reconstruct(), and INVALID_ARGUMENT where there is too little room; `count` and
+ * what fits are there then, too. Cost: two passes over the field. Since 0.2. */
+DIF_API dif_status dif_interfacial_cells(const dif_field* field, const dif_options* options,
+                                         int64_t capacity, int64_t cells[], int64_t* count);
+
+/* What the surface of a cell is made of. */
+enum {
+  DIF_SURFACE_NONE = 0,          /* the fractions around determine no smooth surface */
+  DIF_SURFACE_HEIGHTS_13 = 1,    /* heights of 13 columns: a quartic along both axes across them */
+  DIF_SURFACE_HEIGHTS_25 = 2,    /* heights of 25 columns: a biquartic */
+  DIF_SURFACE_QUADRATIC_FIT = 3, /* a paraboloid fitted to the fractions within 2.1 cells */
+  DIF_SURFACE_QUARTIC_FIT = 4    /* a quartic fitted to those within 3.2 cells */
+};
+
+/* What surfaces are for, which decides on what they are made of. */
+enum {
+  DIF_SURFACES_FOR_POSITION = 0, /* 13 columns, else a paraboloid: the least error of position */
+  /* 25 columns, else a quartic, else 13 columns, else a paraboloid: the least error of curvature */
+  DIF_SURFACES_FOR_CURVATURE = 1
+};
+
+/* Curved surfaces of cells, one after the other in arrays of the caller; NULL where a result is not
+ * wanted. A surface is the graph zeta = q(xi, eta) over a plane through the cell's centre; the
+ * material is below it. Curvatures are in 1 / unit of the spacing, the Gaussian in its square, and
+ * positive where the material is convex: a drop of radius R has mean curvature 1/R. Without a
+ * source all is 0 but for axis (-1), length, and curvatures and residual, which are NaN; the
+ * residual not where a surface was tried to the end. */
+typedef struct dif_surface_arrays {
+  uint64_t struct_size;
+  int32_t* source;  /* DIF_SURFACE_... */
+  int32_t* axis;    /* heights: 0 to 2, the axis that columns run along, the lowest of those that
+                         * have the same right; -1 else */
+  double* foot;     /* 3 per cell, from its centre: point of the surface next to the centre */
+  double* normal;   /* 3 per cell, there: unit vector out of the material */
+  double* mean;     /* there: half the sum of the principal curvatures */
+  double* gaussian; /* their product */
+  double* largest;  /* the larger of them */
+  double* smallest; /* the smaller */
+  double* residual; /* by how much fractions differ from what the surface says, at most 0.03 */
+  double* length;   /* cube root of the cell's volume */
+  double* frame;    /* 9 per cell: unit vectors along xi, eta and zeta, orthogonal */
+  double* coefficients; /* 25 per cell: zeta / length is the sum of coefficients[5 p + q]
+                         * (xi / length)^p (eta / length)^q, p and q from 0 to 4 */
+} dif_surface_arrays;
+
+/* Without arrays. Errors: INVALID_ARGUMENT, STRUCT. Since 0.2. */
+DIF_API dif_status dif_surface_arrays_init(dif_surface_arrays* arrays, uint64_t struct_size);
+
+/* Curved surfaces of `count` cells, by heights and fits, sides and purity_tolerance; cells that are
+ * as good as pure have none. kind: DIF_SURFACES_FOR_...; cells: 3 count indices, in [0, dims). The
+ * field is read only near these cells; NaN count as 0. On an error the arrays are untouched, or on
+ * CANCELLED and OUT_OF_MEMORY written in part.
+ * Errors: as dif_reconstruct(). Cost: 3 to 6 microseconds per cell from heights, 50 to 200 from
+ * fits. Since 0.2. */
+DIF_API dif_status dif_cell_surfaces(const dif_field* field, const dif_options* options,
+                                     int32_t kind, int64_t count, const int64_t cells[],
+                                     const dif_surface_arrays* arrays);
+
+/* Mean curvature of all interfacial cells of a field, by surfaces of DIF_SURFACES_FOR_CURVATURE,
+ * into an array of the caller: that of cell (i, j, k) goes to mean[i strides[0] + j strides[1] +
+ * k strides[2]]. Interfacial cells without a surface get NaN, other cells 0. `strides` may be NULL:
+ * x fastest, without gaps. The whole field is checked, as dif_reconstruct() does. On an error the
+ * array is untouched, or on CANCELLED and OUT_OF_MEMORY written in part.
+ * Errors: as dif_reconstruct(). Cost: two passes over the field, one over the array, and as above.
+ * Since 0.2. */
+DIF_API dif_status dif_cell_curvature(const dif_field* field, const dif_options* options,
+                                      double mean[], const int64_t strides[3]);
+
 /* ============================== 5. Making fields ============================================== */
 
 /* A grid without data. */

@@ -1,14 +1,14 @@
 ! Views of arrays, files, fractions and planes.
 module fields_test
   use, intrinsic :: iso_c_binding
-  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_value, ieee_quiet_nan
   use difmesh
   use difmesh_c, only: dif_has, dif_value_extremes
   use expect_module
   implicit none
   private
   public :: test_views, test_bad_views, test_samples, test_planes, test_plane_arrays, test_files, &
-    test_values, test_value_files
+    test_values, test_value_files, test_curvature
 
   real(8), parameter :: centre(3) = [8.2d0, 8.4d0, 9.1d0], normal(3) = [0.36d0, -0.48d0, 0.8d0]
   integer :: calls
@@ -304,6 +304,61 @@ contains
     targets%offset => offset
     call dif_planes(dif_view(c, ghosts=1), targets, status)
     call expect(status == dif_error_invalid_argument, 'different shapes')
+  end subroutine
+
+  ! Of a drop and a bubble, into the arrays of a solver with ghost layers.
+  subroutine test_curvature()
+    integer, parameter :: n = 26
+    real(8), target :: c(0:n + 1, 0:n + 1, 0:n + 1), speck(5, 5, 5), none(6, 0, 6)
+    real(8) :: kappa(0:n + 1, 0:n + 1, 0:n + 1), dense(n, n, n), turned(2*n, n, n), nothing(6, 0, 6)
+    real(8) :: curvature(5, 5, 5)
+    logical :: interfacial(n, n, n)
+    integer :: status
+    character(1000) :: message
+    call dif_fractions_of_function(dif_make_grid([n, n, n], [0.1d0, 0.1d0, 0.1d0]), drop, &
+      c(1:n, 1:n, 1:n), status)
+    interfacial = c(1:n, 1:n, 1:n) > 1d-6 .and. c(1:n, 1:n, 1:n) < 1 - 1d-6
+    kappa = -7
+    call dif_curvature(dif_view(c, [0.1d0, 0.1d0, 0.1d0], ghosts=1), kappa, status, &
+      message=message, ghosts=1)
+    call expect(status == dif_ok, 'curvature: '//trim(message))
+    dense = kappa(1:n, 1:n, 1:n)
+    call expect(count(interfacial) > 1000, 'cells of the drop')
+    call expect(all(abs(pack(dense, interfacial) - 1) < 0.02d0), 'curvature of a drop')
+    call expect(all(abs(pack(dense, .not. interfacial)) <= 0), '0 in other cells')
+    call expect(all(abs(kappa(0, :, :) + 7) <= 0) .and. all(abs(kappa(:, :, n + 1) + 7) <= 0), &
+      'ghost layers are left alone')
+
+    turned = -7
+    call dif_curvature(dif_view(c(1:n, 1:n, 1:n), [0.1d0, 0.1d0, 0.1d0]), &
+      turned(2*n:2:-2, :, n:1:-1), status)
+    call expect(all(abs(turned(2*n:2:-2, :, n:1:-1) - dense) <= 0), 'a section, turned round')
+    call expect(all(abs(turned(1::2, :, :) + 7) <= 0), 'elements between are left alone')
+    c = 1 - c
+    call dif_curvature(dif_view(c(1:n, 1:n, 1:n), [0.1d0, 0.1d0, 0.1d0]), dense, status)
+    call expect(all(abs(pack(dense, interfacial) + 1) < 0.02d0), 'curvature of a bubble')
+
+    speck = 0
+    speck(3, 3, 3) = 0.5d0
+    call dif_curvature(dif_view(speck), curvature, status)
+    call expect(ieee_is_nan(curvature(3, 3, 3)), 'NaN where there is no surface')
+    call expect(count(ieee_is_nan(curvature)) == 1, 'and nowhere else')
+    call dif_curvature(dif_view(c), kappa(1:n, :, :), status, message=message)
+    call expect(status == dif_error_invalid_argument, 'another shape')
+    call expect(index(message, 'kappa') > 0, 'what is wrong')
+    call dif_curvature(dif_view(c), kappa, status, ghosts=-1)
+    call expect(status == dif_error_invalid_argument, 'ghosts < 0')
+    call dif_curvature(dif_view(none), nothing, status)
+    call expect(status == dif_error_invalid_grid, 'no cells')
+  end subroutine
+
+  subroutine drop(points, values)
+    real(8), intent(in) :: points(:, :)
+    real(8), intent(out) :: values(:)
+    integer :: n
+    do n = 1, size(values)
+      values(n) = norm2(points(:, n) - [1.31d0, 1.29d0, 1.33d0]) - 1
+    end do
   end subroutine
 
   subroutine plane(points, values)

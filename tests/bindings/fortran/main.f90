@@ -9,6 +9,7 @@ program bindings_fortran_test
   call test_samples()
   call test_planes()
   call test_plane_arrays()
+  call test_curvature()
   call test_values()
   call test_files()
   call test_value_files()

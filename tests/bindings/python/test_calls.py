@@ -26,6 +26,9 @@ class Progress(unittest.TestCase):
             lambda progress: difmesh.reconstruct(smooth_ball(), progress=progress),
             lambda progress: difmesh.normals(smooth_ball(), progress=progress),
             lambda progress: difmesh.cell_planes(smooth_ball(), [[3, 4, 5]], progress=progress),
+            lambda progress: difmesh.cell_curvature(smooth_ball(), progress=progress),
+            lambda progress: difmesh.cell_surfaces(smooth_ball(), progress=progress),
+            lambda progress: difmesh.cell_surfaces(smooth_ball(), [[3, 4, 5]], progress=progress),
             lambda progress: difmesh.fractions_from_shape(difmesh.Shape(), 8, progress=progress),
             lambda progress: difmesh.fractions_from_function(
                 lambda points: points[:, 0] - 2.2, 8, progress=progress

@@ -1,4 +1,5 @@
-// dif_cell_planes(), dif_plane_fraction() and dif_plane_offset(): planes alone.
+// dif_cell_planes(), dif_plane_fraction() and dif_plane_offset(): planes alone. And the curved
+// surfaces of the same cells.
 
 #include <algorithm>
 #include <cmath>
@@ -70,6 +71,39 @@ void compare_with_field(const Field& field, const dif_options& options,
   }
 }
 
+/// A unit normal and ordered curvatures, or no surface; dif_cell_curvature() says the same.
+void check_surfaces(const Field& field, const dif_options& options,
+                    const std::vector<std::int64_t>& cells) {
+  const std::size_t count = cells.size() / 3;
+  std::vector<std::int32_t> sources(count, -9);
+  std::vector<double> normals(3 * count, -9.0);
+  std::vector<double> mean(count, -9.0);
+  std::vector<double> largest(count, -9.0);
+  std::vector<double> smallest(count, -9.0);
+  dif_surface_arrays arrays = prepared(dif_surface_arrays_init);
+  arrays.source = sources.data();
+  arrays.normal = normals.data();
+  arrays.mean = mean.data();
+  arrays.largest = largest.data();
+  arrays.smallest = smallest.data();
+  demand(dif_cell_surfaces(&field.c(), &options, DIF_SURFACES_FOR_CURVATURE,
+                           static_cast<std::int64_t>(count), cells.data(), &arrays) == DIF_OK);
+  std::vector<double> all(static_cast<std::size_t>(field.cells()), -9.0);
+  const bool is_good = dif_cell_curvature(&field.c(), &options, all.data(), nullptr) == DIF_OK;
+  const std::int64_t(&dims)[3] = field.c().dims;
+  for (std::size_t n = 0; n < count; ++n) {
+    const bool is_there = sources[n] != DIF_SURFACE_NONE;
+    const double* const normal = &normals[3 * n];
+    const double length = std::hypot(normal[0], normal[1], normal[2]);
+    demand(sources[n] >= DIF_SURFACE_NONE && sources[n] <= DIF_SURFACE_QUARTIC_FIT);
+    demand(is_there ? std::abs(length - 1.0) < 1e-12 : length == 0.0);
+    demand(is_there ? largest[n] >= smallest[n] : std::isnan(mean[n]));
+    const double one = all[static_cast<std::size_t>(
+        (cells[3 * n + 2] * dims[1] + cells[3 * n + 1]) * dims[0] + cells[3 * n])];
+    demand(!is_good || one == (is_there ? mean[n] : 0.0) || (!is_there && std::isnan(one)));
+  }
+}
+
 }  // namespace
 
 void call_cell_planes(Input& input) {
@@ -94,6 +128,7 @@ void call_cell_planes(Input& input) {
     check_plane(&planes.normals[3 * n], planes.offsets[n], planes.sources[n]);
   }
   compare_with_field(field, options, cells, planes);
+  check_surfaces(field, options, cells);
 }
 
 void call_plane_numbers(Input& input) {
