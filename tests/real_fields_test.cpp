@@ -189,3 +189,22 @@ TEST_CASE("real fields: blocks and slabs give the whole field to the last bit") 
     }
   }
 }
+
+TEST_CASE("real fields: curved surfaces are manifold, and in slabs the same") {
+  for (const auto& field : {load_drops(), load_dam_break(), load_vortex()}) {
+    if (!field) {
+      continue;
+    }
+    Options options;
+    options.placement = Placement::curved;
+    options.edge_ids = true;
+    options.boundary.fill(Side::empty);
+    const Reconstruction whole = reconstruct(field->cells.view(), field->grid, options);
+    CHECK(measure(whole.mesh).manifold);
+    CHECK(whole.report.closed);
+    CHECK(whole.report.curved_vertices > 1000);
+    const Reconstruction slabs = test::in_slabs(field->cells.view(), field->grid, options, 11, 11);
+    CHECK(test::same_bits(slabs.mesh, whole.mesh));
+    CHECK(test::difference(slabs.report, whole.report) == "");
+  }
+}

@@ -157,7 +157,9 @@ TEST_CASE("manifold: white noise with every kind of side") {
     for (int n = 0; n < kNoiseFields; ++n) {
       Options options;
       options.boundary.fill(side);
-      options.placement = n % 5 == 4 ? Placement::linear : Placement::plic;
+      options.placement = n % 5 == 4   ? Placement::linear
+                          : n % 5 == 3 ? Placement::curved
+                                       : Placement::plic;
       CAPTURE(static_cast<int>(side));
       CAPTURE(n);
       const auto seed = static_cast<std::uint64_t>(1000 * static_cast<int>(side) + n);
@@ -185,8 +187,8 @@ TEST_CASE("manifold: sides mixed at random and thin domains") {
 TEST_CASE("manifold: values out of 0 and 1/2 and 1") {
   for (const Side side : kAllSides) {
     for (int n = 0; n < kNoiseFields / 5; ++n) {
-      for (const Placement placement :
-           {Placement::midpoint, Placement::linear, Placement::manson, Placement::plic}) {
+      for (const Placement placement : {Placement::midpoint, Placement::linear, Placement::manson,
+                                        Placement::plic, Placement::curved}) {
         Options options;
         options.boundary.fill(side);
         options.placement = placement;

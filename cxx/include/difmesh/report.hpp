@@ -37,7 +37,7 @@ struct Report {
   double enclosed_volume = 0.0;
   struct Seconds {           ///< wall time by phase
     double classify = 0.0;   ///< the one pass over the field: checks, sums, inside bits
-    double normals = 0.0;    ///< normals and planes
+    double normals = 0.0;    ///< normals, planes and curved surfaces
     double count = 0.0;      ///< counting and allocation of the output
     double vertices = 0.0;   ///< placement
     double triangles = 0.0;  ///< connectivity, volume

@@ -216,8 +216,8 @@ class HeightSurface {
     if (!heights_.fill(columns_, rule_.is_biquartic)) {
       return std::nullopt;
     }
-    const AxisAverages u = cells_.averages(along(1));
-    const AxisAverages v = cells_.averages(along(2));
+    const AxisAverages& u = cells_.averages(along(1));
+    const AxisAverages& v = cells_.averages(along(2));
     coefficients_ = rule_.is_biquartic ? biquartic(heights_, u, v) : cross_quartic(heights_, u, v);
     Graph graph = in_space();
     const double slope =

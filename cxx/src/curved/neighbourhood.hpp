@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "curved/axis_averages.hpp"
 #include "grid/block_field.hpp"
@@ -29,6 +30,9 @@ class Neighbourhood : public CellsAround<kCurvatureReach> {
       size_[axis] = own[axis] / length_;
       is_uniform_[axis] = field.grid.is_uniform(axis);
       set_axis(field, axis, cell[axis], own[axis]);
+      if (!is_uniform_[axis]) {
+        averages_[axis] = stretched_averages(axis);
+      }
     }
   }
 
@@ -44,18 +48,8 @@ class Neighbourhood : public CellsAround<kCurvatureReach> {
     return centres_[axis][static_cast<std::size_t>(step + kCurvatureReach)];
   }
   /// Those of the cells across columns, for polynomials along the axis.
-  [[nodiscard]] AxisAverages averages(std::size_t axis) const {
-    if (is_uniform_[axis]) {
-      return AxisAverages::uniform();
-    }
-    std::array<double, kAcross> centres;
-    std::array<double, kAcross> widths;
-    for (std::size_t n = 0; n < kAcross; ++n) {
-      const std::int64_t step = static_cast<std::int64_t>(n) - kAcrossReach;
-      centres[n] = centre(axis, step);
-      widths[n] = width(axis, step);
-    }
-    return {centres, widths};
+  [[nodiscard]] const AxisAverages& averages(std::size_t axis) const {
+    return is_uniform_[axis] ? AxisAverages::uniform() : *averages_[axis];
   }
 
  private:
@@ -76,12 +70,24 @@ class Neighbourhood : public CellsAround<kCurvatureReach> {
     }
   }
 
+  [[nodiscard]] AxisAverages stretched_averages(std::size_t axis) const {
+    std::array<double, kAcross> centres;
+    std::array<double, kAcross> widths;
+    for (std::size_t n = 0; n < kAcross; ++n) {
+      const std::int64_t step = static_cast<std::int64_t>(n) - kAcrossReach;
+      centres[n] = centre(axis, step);
+      widths[n] = width(axis, step);
+    }
+    return {centres, widths};
+  }
+
   double purity_tolerance_;
   double length_;
   Vec3 size_{};
   std::array<bool, 3> is_uniform_{};
   std::array<std::array<double, kCells>, 3> widths_;
   std::array<std::array<double, kCells>, 3> centres_;
+  std::array<std::optional<AxisAverages>, 3> averages_;
 };
 
 }  // namespace difmesh::detail

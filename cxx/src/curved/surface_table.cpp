@@ -69,7 +69,7 @@ SurfaceTable::SurfaceTable(const BlockField& field, Phases& phases, double weigh
     const std::int64_t offset = field.block.offset[axis];
     const std::int64_t end = offset + field.block.dims[axis];
     low_[axis] = std::max(field.axes[axis].low, offset - kSurfaceLayers);
-    dims_[axis] = std::min(field.axes[axis].high, end + 1 + kSurfaceLayers) - low_[axis];
+    dims_[axis] = std::min(field.axes[axis].high, end + kSurfaceLayers) - low_[axis];
   }
   make(phases, 0.8 * weight);
   find_kinks(phases, 0.2 * weight);
@@ -176,37 +176,53 @@ OwnedSurface SurfaceTable::surface_of(const Entry& entry) const {
   return surface;
 }
 
-SurfaceAt SurfaceTable::at(const Index3& cell) const {
-  SurfaceAt result;
-  Index3 resolved;
-  Vec3 sense{1.0, 1.0, 1.0};
-  bool is_constant = false;
-  bool is_elsewhere = false;  // beyond an open side, or further away than anything asks
+SurfaceTable::Place SurfaceTable::place_of_cell(const Index3& cell) const {
+  Place place;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const AxisCells& cells = field_.axes[axis];
     std::int64_t index = cell[axis];
     while (is_cell(index) && (index < cells.low || index >= cells.high)) {
       const std::int64_t nearer = cells.beyond(index);
       const bool is_mirrored = is_cell(nearer) && cells.boundary[index < 0 ? 0 : 1] == Side::mirror;
-      sense[axis] = is_mirrored ? -sense[axis] : sense[axis];
+      place.sense[axis] = is_mirrored ? -place.sense[axis] : place.sense[axis];
       index = nearer;
     }
-    is_constant = is_constant || index == kEmptyBeyond || index == kFullBeyond;
-    is_elsewhere = is_elsewhere || index == kMissing || index < low_[axis] ||
-                   index >= low_[axis] + dims_[axis];
-    resolved[axis] = index;
+    place.is_constant = place.is_constant || index == kEmptyBeyond || index == kFullBeyond;
+    place.is_elsewhere = place.is_elsewhere || index == kMissing || index < low_[axis] ||
+                         index >= low_[axis] + dims_[axis];
+    place.cell[axis] = index;
   }
-  if (is_elsewhere && !is_constant) {
+  return place;
+}
+
+SurfaceAt SurfaceTable::at(const Index3& cell) const {
+  SurfaceAt result;
+  const Place place = place_of_cell(cell);
+  if (place.is_elsewhere && !place.is_constant) {
     return result;
   }
   result.ownership = Ownership::pure;
-  const Entry* const entry = is_constant ? nullptr : find(resolved);
+  const Entry* const entry = place.is_constant ? nullptr : find(place.cell);
   if (entry != nullptr) {
     result.ownership = entry->graph_count > 0 ? Ownership::owned : Ownership::bare;
     result.surface = surface_of(*entry);
-    result.surface.sense = sense;
+    result.surface.sense = place.sense;
   }
   return result;
+}
+
+void SurfaceTable::note_moved(const Index3& cell) {
+  const std::int64_t number = find(cell) - entries_.data();
+  entries_[static_cast<std::size_t>(number)].is_moved = true;
+}
+
+bool SurfaceTable::is_moved(const Index3& cell) const {
+  const Place place = place_of_cell(cell);
+  if (place.is_constant || place.is_elsewhere) {
+    return false;
+  }
+  const Entry* const entry = find(place.cell);
+  return entry != nullptr && entry->is_moved;
 }
 
 }  // namespace difmesh::detail

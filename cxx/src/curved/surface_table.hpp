@@ -42,20 +42,23 @@ struct SurfaceAt {
   OwnedSurface surface;
 };
 
-/// Layers of cells around a block whose surfaces it needs: a node's side depends on whether its
-/// neighbours are kinked, and that on the surfaces around these.
-inline constexpr std::int64_t kSurfaceLayers = 2;
+/// Layers of cells around a block whose surfaces it needs: the side of a node next to it depends on
+/// whether its neighbours are kinked, and that on the surfaces around these.
+inline constexpr std::int64_t kSurfaceLayers = 3;
 
 /// Thread safety: const calls are safe.
 class SurfaceTable {
  public:
-  /// Makes the surfaces of all interfacial cells of the block and kSurfaceLayers beyond (one more at
-  /// the upper ends, whose first layer of nodes belongs to the block) and finds the kinked ones: see
-  /// kinks.hpp.
+  /// Makes the surfaces of all interfacial cells of the block and kSurfaceLayers beyond, and finds
+  /// the kinked ones: see kinks.hpp.
   SurfaceTable(const BlockField& field, Phases& phases, double weight);
 
   /// Of a cell by its global index, which may be beyond the sides.
   [[nodiscard]] SurfaceAt at(const Index3& cell) const;
+  /// Notes that a cell's surface puts its centre on another side than its fraction does, and says
+  /// where that is so.
+  void note_moved(const Index3& cell);
+  [[nodiscard]] bool is_moved(const Index3& cell) const;
   [[nodiscard]] const BlockField& field() const { return field_; }
   /// Cube root of a cell's volume.
   [[nodiscard]] double length(const Index3& cell) const {
@@ -84,6 +87,7 @@ class SurfaceTable {
     std::int32_t place = 0;  // in its row
     std::uint8_t graph_count = 0;
     bool is_kinked = false;
+    bool is_moved = false;
     std::int64_t first_graph = 0;
     double bend = 0.0;
   };
@@ -91,6 +95,14 @@ class SurfaceTable {
   [[nodiscard]] Index3 start_of(std::int64_t row) const {
     return {low_[0], low_[1] + row % dims_[1], low_[2] + row / dims_[1]};
   }
+  /// A place of the grid, seen through the sides.
+  struct Place {
+    Index3 cell{0, 0, 0};
+    Vec3 sense{1.0, 1.0, 1.0};
+    bool is_constant = false;
+    bool is_elsewhere = false;  ///< beyond an open side, or further away than anything asks
+  };
+  [[nodiscard]] Place place_of_cell(const Index3& cell) const;
   [[nodiscard]] const Entry* find(const Index3& cell) const;
   [[nodiscard]] OwnedSurface surface_of(const Entry& entry) const;
   void make(Phases& phases, double weight);

@@ -94,7 +94,7 @@ void settle_face_node(const SurfaceTable& table, const Index3& node, DualGrid& g
 
 }  // namespace
 
-std::int64_t settle_centres(const SurfaceTable& table, NodeBits& nodes) {
+std::int64_t settle_centres(SurfaceTable& table, NodeBits& nodes) {
   const BlockField& field = table.field();
   std::int64_t moved = 0;
   for (std::int64_t row = 0; row < table.rows(); ++row) {
@@ -106,6 +106,7 @@ std::int64_t settle_centres(const SurfaceTable& table, NodeBits& nodes) {
       const bool inside = surface.function({0.0, 0.0, 0.0}) <= kOnNode;
       if (inside != (fraction >= 0.5) && is_settled(table, cell)) {
         set_nodes(field, cell, inside, nodes);
+        table.note_moved(cell);
         moved += field.is_own(cell) ? 1 : 0;
       }
     });

@@ -11,7 +11,7 @@ namespace difmesh::detail {
 /// the true surface would leave edges next to cells with γ near 1/2. Only where the fraction is in
 /// [0.3, 0.7], and the surfaces of the cell and its six neighbours agree with each other. Returns
 /// how many centres of the block's own cells changed sides.
-std::int64_t settle_centres(const SurfaceTable& table, NodeBits& nodes);
+std::int64_t settle_centres(SurfaceTable& table, NodeBits& nodes);
 
 /// The same for nodes on open domain faces that the surface may run on to: what the surface of
 /// their cell says of the face.

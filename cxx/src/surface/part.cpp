@@ -52,8 +52,10 @@ void run_phases(const BlockField& field, const Options& options, const char*& no
 
   now = kPlanes.makes;
   if (with_planes || options.vertex_normals) {
-    grid.set_planes(make_planes(field, grid.nodes(), classified.row_ends, options, phases, report),
-                    with_planes);
+    grid.set_planes(
+        make_planes(field, grid.nodes(), {classified.row_ends, surfaces ? &*surfaces : nullptr},
+                    options, phases, report),
+        with_planes);
     if (surfaces) {
       settle_faces(*surfaces, grid);
     }

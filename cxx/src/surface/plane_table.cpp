@@ -16,9 +16,12 @@ namespace {
 template <class T>
 class Flagger {
  public:
-  Flagger(const BlockField& field, const NodeBits& nodes, const Array<std::uint8_t>& row_ends,
-          bool open_layers)
-      : field_(field), nodes_(nodes), row_ends_(row_ends), cells_(field) {
+  Flagger(const BlockField& field, const NodeBits& nodes, const PlaneHints& hints, bool open_layers)
+      : field_(field),
+        nodes_(nodes),
+        row_ends_(hints.row_ends),
+        surfaces_(hints.surfaces),
+        cells_(field) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::int64_t end = field.block.offset[axis] + field.block.dims[axis];
       open_[axis][0] =
@@ -90,7 +93,6 @@ class Flagger {
   // before the block, which its nodes do not include.
   template <class Visit>
   void for_each_unseen_end(std::int64_t j, std::int64_t k, const Visit& visit) const {
-    const auto is_inside = [](const T& value) { return fraction_of(value) >= 0.5; };
     const std::int64_t stride = field_.view.strides[0];
     const T* const here = cells_of(j, k);
     for (const std::size_t axis : {std::size_t{1}, std::size_t{2}}) {
@@ -98,20 +100,31 @@ class Flagger {
         continue;
       }
       const T* const before = axis == 1 ? cells_of(j - 1, k) : cells_of(j, k - 1);
+      const Index3 step{0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0};
       for (std::int64_t i = 0; i < cells_.dims[0]; ++i) {
-        if (is_inside(here[i * stride]) != is_inside(before[i * stride])) {
+        if (is_inside(here[i * stride], {i + 1, j, k}) !=
+            is_inside(before[i * stride], {i + 1, j - step[1], k - step[2]})) {
           visit(i + 1);
         }
       }
     }
     if (nodes_.first()[0] == 1) {
       const std::int64_t before = field_.axes[0].resolve(field_.block.offset[0] - 1);
-      if (is_inside(*here) != is_inside(here[(before - field_.block.offset[0]) * stride])) {
+      if (is_inside(*here, {1, j, k}) !=
+          is_inside(here[(before - field_.block.offset[0]) * stride], {0, j, k})) {
         visit(1);
       }
     }
   }
 
+  // By fraction, or by its surface if that says otherwise; the cell is told by its local index.
+  [[nodiscard]] bool is_inside(const T& value, const Index3& local) const {
+    const bool is_moved =
+        surfaces_ != nullptr && surfaces_->is_moved({local[0] - 1 + field_.block.offset[0],
+                                                     local[1] - 1 + field_.block.offset[1],
+                                                     local[2] - 1 + field_.block.offset[2]});
+    return (fraction_of(value) >= 0.5) != is_moved;
+  }
   [[nodiscard]] const T* cells_of(std::int64_t j, std::int64_t k) const {
     return static_cast<const T*>(field_.view.data) +
            field_.element({field_.axes[0].resolve(field_.block.offset[0]),
@@ -164,6 +177,7 @@ class Flagger {
   const BlockField& field_;
   const NodeBits& nodes_;
   const Array<std::uint8_t>& row_ends_;
+  const SurfaceTable* surfaces_;
   BlockCells cells_;
   bool open_[3][2] = {};
 };
@@ -244,16 +258,15 @@ std::int64_t PlaneTable::rank(const Index3& node) const {
          count_bits(words[word] & below(static_cast<int>(node[0] % 64)));
 }
 
-PlaneTable make_planes(const BlockField& field, const NodeBits& nodes,
-                       const Array<std::uint8_t>& row_ends, const Options& options, Phases& phases,
-                       Report& report) {
+PlaneTable make_planes(const BlockField& field, const NodeBits& nodes, const PlaneHints& hints,
+                       const Options& options, Phases& phases, Report& report) {
   std::vector<std::uint32_t> row_counts(static_cast<std::size_t>(nodes.rows()));
   const std::int64_t grain = rows_per_portion(nodes);
   const std::int64_t row_length = nodes.last()[1] + 1;
   PlaneTable table;
   with_scalar(field.view.type, [&](auto type) {
     using T = decltype(type);
-    const Flagger<T> flagger(field, nodes, row_ends, placement_part(options.placement).by_planes);
+    const Flagger<T> flagger(field, nodes, hints, placement_part(options.placement).by_planes);
     phases.run(0.5 * kPlanes.weight, nodes.rows(), grain,
                [&](std::int64_t begin, std::int64_t end) {
                  std::vector<std::uint64_t> words(static_cast<std::size_t>(nodes.words()));

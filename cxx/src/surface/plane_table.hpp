@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "curved/surface_table.hpp"
 #include "difmesh/array.hpp"
 #include "difmesh/report.hpp"
 #include "grid/block_field.hpp"
@@ -69,10 +70,16 @@ class PlaneTable {
   Array<UnitPlane> planes_;
 };
 
+/// What earlier phases know of the cells.
+struct PlaneHints {
+  const Array<std::uint8_t>& row_ends;  ///< see ClassifiedNodes
+  const SurfaceTable* surfaces;         ///< null where cells own none
+};
+
 /// Flags the outermost cells, estimates their normals and fits their planes. Adds the facts about
-/// them to the report. row_ends: see ClassifiedNodes.
+/// them to the report.
 [[nodiscard]] PlaneTable make_planes(const BlockField& field, const NodeBits& nodes,
-                                     const Array<std::uint8_t>& row_ends, const Options& options,
+                                     const PlaneHints& hints, const Options& options,
                                      Phases& phases, Report& report);
 
 }  // namespace difmesh::detail

@@ -203,7 +203,7 @@ TEST_CASE("attack: the specimens are of all kinds") {
     });
     CHECK(dump(specimen) == dump(make_specimen(seed)));
   }
-  CHECK(placements.size() == 5);
+  CHECK(placements.size() == 6);
   CHECK(normals.size() == 6);
   CHECK(types.size() == 4);
   for (const std::set<std::int32_t>& side : sides) {

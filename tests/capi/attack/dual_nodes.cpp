@@ -1,11 +1,14 @@
 #include "dual_nodes.hpp"
 
+#include <cmath>
+
 #include "text.hpp"
 
 namespace difmesh::attack {
 void DualNodes::measure(const Specimen& specimen) {
   specimen_ = &specimen;
-  with_planes_ = specimen.options.placement == DIF_PLACEMENT_PLIC ||
+  with_surfaces_ = specimen.options.placement == DIF_PLACEMENT_CURVED;
+  with_planes_ = with_surfaces_ || specimen.options.placement == DIF_PLACEMENT_PLIC ||
                  specimen.options.placement == DIF_PLACEMENT_DEFAULT;
   for (std::size_t a = 0; a < 3; ++a) {
     const std::int64_t count = specimen.dims[a];
@@ -83,7 +86,14 @@ DualNodes::Stand DualNodes::stand_of(const Index3& node) const {
 }
 
 bool DualNodes::is_free(const Stand& stand) const {
-  return with_planes_ && stand.open_faces > 0 && !stand.empty && !stand.full;
+  if (stand.empty || stand.full) {
+    return false;
+  }
+  const auto is_near_half = [&] {
+    const double fraction = specimen_->fraction(stand.cell);
+    return fraction > 0.3 && fraction < 0.7;
+  };
+  return (with_planes_ && stand.open_faces > 0) || (with_surfaces_ && is_near_half());
 }
 
 std::optional<double> DualNodes::fraction(const Index3& node) const {
@@ -117,6 +127,53 @@ void DualNodes::settle(const Index3& node) {
       const DualEdge edge{node[a] < 0 ? node : inner, a};
       inside_[number(node)] = inside_[number(inner)] ^ named_[id_of(edge)];
       return;
+    }
+  }
+}
+
+// All free ones: from a neighbour that is known. In a group without one the centre whose fraction
+// is furthest from 1/2 is as this says; the edges tell the others.
+void DualNodes::settle_by_neighbours() {
+  std::vector<std::uint8_t> is_known(inside_.size());
+  for_each_node(first_, last_, [&](const Index3& node) {
+    is_known[number(node)] = is_free(stand_of(node)) ? 0 : 1;
+  });
+  const auto settle_one = [&](const Index3& node) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      for (const std::int64_t step : {-1, 1}) {
+        Index3 other = node;
+        other[a] += step;
+        const DualEdge edge{step < 0 ? other : node, a};
+        if (exists(edge) && is_known[number(other)] != 0) {
+          inside_[number(node)] = inside_[number(other)] ^ named_[id_of(edge)];
+          is_known[number(node)] = 1;
+          return true;
+        }
+      }
+    }
+    return false;
+  };
+  for (bool goes_on = true; goes_on;) {
+    goes_on = false;
+    std::optional<Index3> surest;
+    double sureness = -1.0;
+    for_each_node(first_, last_, [&](const Index3& node) {
+      if (is_known[number(node)] == 0) {
+        const bool is_settled = settle_one(node);
+        goes_on = goes_on || is_settled;
+        const Stand stand = stand_of(node);
+        const double sure = std::abs(specimen_->fraction(stand.cell) - 0.5) - stand.open_faces;
+        if (!is_settled && (!surest || sure > sureness)) {
+          surest = node;
+          sureness = sure;
+        }
+      }
+    });
+    if (!goes_on && surest) {
+      const std::size_t at = number(*surest);
+      inside_[at] = specimen_->fraction(stand_of(*surest).cell) >= 0.5 ? 1 : 0;
+      is_known[at] = 1;
+      goes_on = true;
     }
   }
 }
@@ -155,6 +212,10 @@ Finding DualNodes::build(const Specimen& specimen, std::span<const std::uint64_t
     any_free = any_free || !known;
     inside_[number(node)] = known && *known >= 0.5 ? 1 : 0;
   });
+  if (with_surfaces_) {
+    settle_by_neighbours();
+    return check_edges();
+  }
   for (int faces = 1; any_free && faces <= 3; ++faces) {
     for_each_node(first_, last_, [&](const Index3& node) {
       const Stand stand = stand_of(node);

@@ -30,9 +30,9 @@ struct OpenNode {
 
 class DualNodes {
  public:
-  /// Nodes of open faces, where planes decide, are told by the edges that carry a vertex; all
-  /// others by the field. Then exactly the edges between an inside and an outside node may be
-  /// named.
+  /// Nodes of open faces, where planes decide, and cells near 1/2, where curved surfaces do, are
+  /// told by the edges that carry a vertex; all others by the field. Then exactly the edges between
+  /// an inside and an outside node may be named.
   /// \param ids ascending, of edges that exist; see edge_of() and exists()
   [[nodiscard]] Finding build(const Specimen& specimen, std::span<const std::uint64_t> ids);
 
@@ -49,7 +49,7 @@ class DualNodes {
     return coordinates_[axis][static_cast<std::size_t>(index + 1)];
   }
   [[nodiscard]] bool inside(const Index3& node) const { return inside_[number(node)] != 0; }
-  /// The fraction that decides whether a node is inside; none where a plane may.
+  /// The fraction that decides whether a node is inside; none where a plane or surface may.
   [[nodiscard]] std::optional<double> fraction(const Index3& node) const;
   void for_each_open(const std::function<void(const OpenNode&)>& visit) const;
 
@@ -69,10 +69,12 @@ class DualNodes {
   [[nodiscard]] bool is_open_face(std::size_t axis, std::int64_t index) const;
   [[nodiscard]] bool is_free(const Stand& stand) const;
   void settle(const Index3& node);
+  void settle_by_neighbours();
   [[nodiscard]] Finding check_edges() const;
 
   const Specimen* specimen_ = nullptr;
   bool with_planes_ = false;
+  bool with_surfaces_ = false;
   Index3 first_{};
   Index3 last_{};
   Index3 size_{};  // dims + 2

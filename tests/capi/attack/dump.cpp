@@ -13,7 +13,7 @@ constexpr TypeNames kTypes[] = {{DIF_FLOAT32, "DIF_FLOAT32", "float"},
                                 {DIF_FLOAT64, "DIF_FLOAT64", "double"},
                                 {DIF_UINT8, "DIF_UINT8", "uint8_t"},
                                 {DIF_UINT16, "DIF_UINT16", "uint16_t"}};
-constexpr const char* kPlacements[] = {"DEFAULT", "MIDPOINT", "LINEAR", "MANSON", "PLIC"};
+constexpr const char* kPlacements[] = {"DEFAULT", "MIDPOINT", "LINEAR", "MANSON", "PLIC", "CURVED"};
 constexpr const char* kNormals[] = {"DEFAULT",         "YOUNGS", "MYC",
                                     "HEIGHT_FUNCTION", "ELVIRA", "LVIRA"};
 constexpr const char* kSides[] = {"DEFAULT", "OPEN", "MIRROR", "PERIODIC", "EMPTY", "FULL"};

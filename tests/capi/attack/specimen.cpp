@@ -49,7 +49,7 @@ void choose_options(Random& random, dif_options& options) {
   (void)dif_options_init(&options, sizeof options);
   constexpr std::int32_t kPlacements[] = {
       DIF_PLACEMENT_DEFAULT, DIF_PLACEMENT_PLIC,   DIF_PLACEMENT_PLIC,     DIF_PLACEMENT_PLIC,
-      DIF_PLACEMENT_PLIC,    DIF_PLACEMENT_MANSON, DIF_PLACEMENT_MIDPOINT, DIF_PLACEMENT_LINEAR};
+      DIF_PLACEMENT_CURVED,  DIF_PLACEMENT_MANSON, DIF_PLACEMENT_MIDPOINT, DIF_PLACEMENT_LINEAR};
   constexpr std::int32_t kNormals[] = {DIF_NORMALS_DEFAULT,
                                        DIF_NORMALS_YOUNGS,
                                        DIF_NORMALS_MYC,

@@ -75,7 +75,10 @@ dif_grid grid_of(const Specimen& specimen) {
 dif_block block_of(const Specimen& specimen, const Index3& low, const Index3& high) {
   dif_block block{};
   block.struct_size = sizeof block;
-  const std::int64_t most = DIF_GHOST_LAYERS + specimen.more_ghosts;
+  const std::int64_t needed = specimen.options.placement == DIF_PLACEMENT_CURVED
+                                  ? DIF_CURVED_GHOST_LAYERS
+                                  : DIF_GHOST_LAYERS;
+  const std::int64_t most = needed + specimen.more_ghosts;
   for (std::size_t a = 0; a < 3; ++a) {
     const std::int64_t dim = specimen.dims[a];
     block.offset[a] = low[a];
@@ -253,6 +256,9 @@ Finding Trial::check_measure() const {
 }
 
 Finding Trial::check_open_faces(const Specimen& specimen, const dif_field& field) const {
+  if (specimen.options.placement == DIF_PLACEMENT_CURVED) {
+    return {};  // surfaces decide, of which this knows nothing
+  }
   std::vector<OpenNode> open;
   std::vector<std::int64_t> cells;
   judge_.nodes().for_each_open([&](const OpenNode& node) {
