@@ -38,7 +38,7 @@ PUBLIC = {
     "curved": ["cell_surfaces"],
     "mesh": ["curvature", "measure", "mesh", "mesh_portion", "smoothing",
              "vertex_normals"],
-    "surface": ["reconstruct", "surface_builder", "weld"],
+    "surface": ["reconstruct", "surface_builder", "vertex_curvature", "weld"],
     "sampling": ["constrained_smoothing", "fractions_from_function", "fractions_from_mesh",
                  "mollify"],
     "shapes": ["shapes"],

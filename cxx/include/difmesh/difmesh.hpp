@@ -27,5 +27,6 @@
 #include "difmesh/surface_builder.hpp"
 #include "difmesh/values.hpp"
 #include "difmesh/version.hpp"
+#include "difmesh/vertex_curvature.hpp"
 #include "difmesh/vertex_normals.hpp"
 #include "difmesh/weld.hpp"

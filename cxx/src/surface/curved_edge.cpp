@@ -12,12 +12,6 @@ namespace {
 // How much the surfaces have to say next to a kink, beside the window.
 constexpr double kKinkedShare = 0.5;
 
-// How much the upper end's function has to say: 0 and 1 at the ends, and such between them that the
-// errors of the third order of two neighbouring cells' polynomials cancel.
-double blend(double u) {
-  return u * (u * u - 1.25) / (3.0 * u * u - 3.0 * u - 0.25);
-}
-
 }  // namespace
 
 CurvedEdge::CurvedEdge(const SurfaceTable& table, const DualGrid& grid, const DualEdge& edge)
