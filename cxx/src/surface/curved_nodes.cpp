@@ -27,8 +27,8 @@ bool is_settled(const SurfaceTable& table, const Index3& cell) {
   return true;
 }
 
-// Whether a local node along an axis stands for a cell: its centre, the open or mirrored domain face
-// next to it, or its image behind a periodic side.
+// Whether a local node along an axis stands for a cell: its centre, the open or mirrored domain
+// face next to it, or its image behind a periodic side.
 bool stands_for(const BlockField& field, std::size_t axis, std::int64_t local, std::int64_t index) {
   const std::int64_t at = local - 1 + field.block.offset[axis];
   const std::int64_t end = field.grid.dims[axis];

@@ -32,8 +32,8 @@ struct NodePlace {
   return place;
 }
 
-/// How much the upper end's surface has to say of a point of the edge: 0 and 1 at the ends, and such
-/// between them that the errors of the third order of two neighbours' polynomials cancel.
+/// How much the upper end's surface has to say of a point of the edge: 0 and 1 at the ends, and
+/// such between them that the errors of the third order of two neighbours' polynomials cancel.
 [[nodiscard]] inline double blend(double share) {
   return share * (share * share - 1.25) / (3.0 * share * share - 3.0 * share - 0.25);
 }
