@@ -20,8 +20,8 @@ namespace difmesh {
 ///   count
 /// \param principal fill Curvature::largest and smallest
 /// \return undefined_vertices and widened_vertices are those of the patches that stand in
-/// \throw Error as cell_surfaces(); invalid_argument for a mesh without edge_ids, or ids outside the
-///   grid
+/// \throw Error as cell_surfaces(); invalid_argument for a mesh without edge_ids, or ids outside
+///   the grid
 /// Cost: that of the surfaces, each of which is made once or twice. Memory beyond the result: some
 /// 20 MB for each thread. Thread safety: concurrent calls are safe.
 /// Source: docs/method.md, "Curved cell surfaces".
