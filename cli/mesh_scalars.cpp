@@ -54,12 +54,9 @@ std::span<const ScalarKind> scalar_kinds() {
   return kKinds;
 }
 
-std::vector<VertexScalar> curvature_scalars(const Mesh& mesh, const CurvatureOptions& options,
-                                            std::int64_t& undefined) {
-  Curvature fitted = curvature(mesh, options);
-  undefined = fitted.undefined_vertices;
-  return {{"mean_curvature", numbers(std::move(fitted.mean))},
-          {"gaussian_curvature", numbers(std::move(fitted.gaussian))}};
+std::vector<VertexScalar> curvature_scalars(Curvature curvature) {
+  return {{"mean_curvature", numbers(std::move(curvature.mean))},
+          {"gaussian_curvature", numbers(std::move(curvature.gaussian))}};
 }
 
 std::string scalars_name(std::string word) {

@@ -33,10 +33,8 @@ struct ScalarKind {
 /// The name that a word of the command line stands for: '-' is read as '_'.
 [[nodiscard]] std::string scalars_name(std::string word);
 
-/// Mean and Gaussian curvature, 0 at vertices that have none, whose number is `undefined`.
-[[nodiscard]] std::vector<VertexScalar> curvature_scalars(const Mesh& mesh,
-                                                          const CurvatureOptions& options,
-                                                          std::int64_t& undefined);
+/// Mean and Gaussian curvature, 0 at vertices that have none.
+[[nodiscard]] std::vector<VertexScalar> curvature_scalars(Curvature curvature);
 
 /// The scalars of that name: the mesh's, or computed.
 /// \throw CLI::ValidationError naming the option, the word and what there is

@@ -14,6 +14,7 @@
 #include "difmesh/measure.hpp"
 #include "difmesh/mollify.hpp"
 #include "difmesh/reconstruct.hpp"
+#include "difmesh/vertex_curvature.hpp"
 #include "field_input.hpp"
 #include "json.hpp"
 #include "long_call.hpp"
@@ -247,12 +248,19 @@ void smooth(const Request& request, const LoadedField& field, LongCall& long_cal
   }
 }
 
+/// Whether the cells' surfaces tell the curvature at vertices: these lie on them.
+bool has_curvature_of_cells(const Request& request) {
+  return request.output.curvature && request.options.placement == Placement::curved &&
+         !request.smoothing && request.mollify.empty();
+}
+
 /// The library knows cells and lengths, not files.
 Reconstruction reconstruct_file(const Request& request, const LoadedField& field,
                                 LongCall& long_call) {
   Options options = request.options;
   options.vertex_normals = options.vertex_normals || request.output.shows_normals();
-  options.edge_ids = options.edge_ids || request.smoothing.has_value();
+  options.edge_ids =
+      options.edge_ids || request.smoothing.has_value() || has_curvature_of_cells(request);
   options.progress = long_call.progress();
   try {
     Reconstruction result = reconstruct_field(request, field, options, long_call);
@@ -265,20 +273,31 @@ Reconstruction reconstruct_file(const Request& request, const LoadedField& field
   }
 }
 
-/// What is to be written with the vertices.
-std::vector<VertexScalar> scalars_for(const Request& request, const Mesh& mesh) {
+Curvature curvature_of(const Request& request, const LoadedField& field, Mesh& mesh) {
+  if (!has_curvature_of_cells(request)) {
+    CurvatureOptions options;
+    options.threads = request.options.threads;
+    return curvature(mesh, options);
+  }
+  Curvature result = vertex_curvature(field.file.view(), field.grid, mesh, request.options);
+  if (!request.options.edge_ids) {
+    mesh.edge_ids.clear();
+  }
+  return result;
+}
+
+/// Gives the mesh what is to be written with its vertices.
+void add_scalars(const Request& request, const LoadedField& field, Mesh& mesh) {
   if (!request.output.curvature) {
-    return {};
+    return;
   }
-  CurvatureOptions options;
-  options.threads = request.options.threads;
-  std::int64_t undefined = 0;
-  std::vector<VertexScalar> scalars = curvature_scalars(mesh, options, undefined);
-  if (undefined > 0 && !request.quiet) {
+  Curvature curvature = curvature_of(request, field, mesh);
+  if (curvature.undefined_vertices > 0 && !request.quiet) {
     warn("'" + request.input.path + "': no curvature on parts that are too small, 0 is written: " +
-         std::to_string(undefined) + " of " + std::to_string(mesh.positions.size()) + " vertices");
+         std::to_string(curvature.undefined_vertices) + " of " +
+         std::to_string(mesh.positions.size()) + " vertices");
   }
-  return scalars;
+  mesh.scalars = curvature_scalars(std::move(curvature));
 }
 
 void check_outputs(const Request& request) {
@@ -341,7 +360,7 @@ void run(const Request& request) {
   Reconstruction result = reconstruct_file(request, field, long_call);
   long_call.done();
   std::vector<std::string> warnings;  // of the files
-  result.mesh.scalars = scalars_for(request, result.mesh);
+  add_scalars(request, field, result.mesh);
   if (request.reference.is_given() && !result.mesh.triangles.empty()) {
     result.mesh.scalars.push_back(
         errors_of(result.mesh, request.reference, request.quiet, warnings));

@@ -125,7 +125,8 @@ bool SurfaceOutput::shows_normals() const {
 void add_surface_options(CLI::App& command, SurfaceOutput& output) {
   command.add_flag("--curvature", output.curvature,
                    "Write mean and Gaussian curvature with each vertex (" +
-                       mesh_extensions_text(has_scalar_place) + ")");
+                       mesh_extensions_text(has_scalar_place) +
+                       "),\nwith --placement curved from the cells' surfaces, else from patches");
   add_draco_options(command, output);
   add_color_options(command, output);
   command

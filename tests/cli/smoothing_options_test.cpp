@@ -16,6 +16,7 @@
 #include "difmesh/mollify.hpp"
 #include "difmesh/reconstruct.hpp"
 #include "difmesh/smoothing.hpp"
+#include "difmesh/vertex_curvature.hpp"
 #include "io/files.hpp"
 #include "program.hpp"
 
@@ -168,6 +169,21 @@ TEST_CASE("--curvature comes with the vertices bit for bit") {
   CHECK(surface.mesh.scalars[1].name == "gaussian_curvature");
   CHECK(same_bytes(surface.mesh.scalars[1].values, expected.gaussian));
   CHECK(place.facts()["options"]["curvature"] == true);
+}
+
+TEST_CASE("--curvature of curved surfaces is that of the cells") {
+  const Place place;
+  const MeshFile surface = place.reconstruct({"--curvature", "--placement", "curved"});
+  CHECK(surface.mesh.edge_ids.empty());
+  Options options;
+  options.placement = difmesh::Placement::curved;
+  options.edge_ids = true;
+  const Mesh mesh = difmesh::reconstruct(place.drop.view(), kGrid, options).mesh;
+  const difmesh::Curvature expected =
+      difmesh::vertex_curvature(place.drop.view(), kGrid, mesh, options);
+  REQUIRE(surface.mesh.scalars.size() == 2);
+  CHECK(same_bytes(surface.mesh.scalars[0].values, expected.mean));
+  CHECK(same_bytes(surface.mesh.scalars[1].values, expected.gaussian));
 }
 
 TEST_CASE("--curvature writes 0 where there is none and says so") {
