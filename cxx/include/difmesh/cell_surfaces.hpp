@@ -73,7 +73,8 @@ struct CellSurface {
 /// - Fits minimise the squares of the differences of fractions, weighted by distance, with the
 ///   volume under the graph right to second order in its distance from the tangent plane, and right
 ///   to rounding in quadratic fits where it grazes faces of cells.
-/// - Planes are exact to rounding, up to open sides, where fits take the cells that there are.
+/// - Planes are exact to rounding, up to open sides, where fits take the cells that there are; the
+///   few cells next to these that are nearly pure know theirs to some digits only, or not at all.
 /// - Next to `mirror`, `periodic`, `empty` and `full` sides, cells beyond count as what is there.
 ///   On stretched axes fits work in space, and heights with the cells' widths.
 ///
