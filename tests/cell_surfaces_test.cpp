@@ -229,6 +229,30 @@ TEST_CASE("cell surfaces: a torus has its curvatures") {
   CHECK(gaussian.rms < 0.03);
 }
 
+TEST_CASE("cell surfaces: long cells have the curvature of the body, not of the fit") {
+  for (const Vec3& spacing : {Vec3{0.1, 0.5, 0.5}, Vec3{0.5, 0.5, 0.1}, Vec3{0.1, 0.2, 0.5}}) {
+    Grid grid;
+    grid.spacing = spacing;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      grid.dims[axis] = static_cast<std::int64_t>(10.0 / spacing[axis]) + 8;
+      grid.origin[axis] = -0.5 * static_cast<double>(grid.dims[axis]) * spacing[axis] + 0.013;
+    }
+    const OwnedField field = fractions(grid, sphere({0.0, 0.0, 0.0}, 5.0));
+    Errors errors;
+    for (const CellSurface& surface :
+         surfaces_of(field.view(), grid, CellSurfaceKind::curvature).surfaces) {
+      if (surface.source != CellSurfaceSource::none) {
+        errors.add(5.0 * surface.mean - 1.0);
+      }
+    }
+    errors.finish();
+    MESSAGE("long cells: " << errors.rms << " / " << errors.most);
+    CHECK(errors.count > 2000);
+    CHECK(errors.rms < 0.02);
+    CHECK(errors.most < 0.3);
+  }
+}
+
 TEST_CASE("cell surfaces: a bubble curves the other way") {
   const Grid grid{{24, 24, 24}, {-1.2, -1.2, -1.2}, {0.1, 0.1, 0.1}};
   OwnedField field = fractions(grid, sphere({0.013, 0.02, -0.031}, 0.9));

@@ -45,11 +45,11 @@ def reconstruct(
 ) -> Mesh:
     """The surface of a field of volume fractions.
 
-    Marching cubes on the grid of cell centres at 1/2, with the vertices where `placement` puts
-    them. The mesh is manifold and free of self-intersections for every field. It ends only on
-    `open` and `mirror` sides, at the ends of the period of `periodic` axes, which are the first
-    cell centre and its image, and along edges of the domain where an `empty` side meets a `full`
-    one.
+    Marching cubes on the grid of cell centres at 1/2 ("curved" may put a centre with a fraction of
+    0.3 to 0.7 on the other side), with the vertices where `placement` puts them. The mesh is
+    manifold and free of self-intersections for every field. It ends only on `open` and `mirror`
+    sides, at the ends of the period of `periodic` axes, which are the first cell centre and its
+    image, and along edges of the domain where an `empty` side meets a `full` one.
 
     fractions: the share of each cell that is inside: a Field, or an array of float32, float64, or
         uint8 and uint16, which stand for value / largest value. Read where it lies, whatever its

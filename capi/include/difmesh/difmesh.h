@@ -223,7 +223,8 @@ DIF_API dif_status dif_options_init(dif_options* options, uint64_t struct_size);
 /* A triangle mesh. Triangles are counter-clockwise seen from the empty side. */
 typedef struct dif_mesh dif_mesh;
 
-/* Reconstructs the surface of a field: marching cubes on the grid of cell centres at 1/2, with the
+/* Reconstructs the surface of a field: marching cubes on the grid of cell centres at 1/2 (CURVED
+ * may put a centre with a fraction of 0.3 to 0.7 on the other side: moved_centres), with the
  * vertices where `placement` puts them. The mesh is manifold and free of self-intersections for
  * every field. It ends only on `open` and `mirror` sides, at the ends of the period of `periodic`
  * axes, which are the first cell centre and its image, and along edges of the domain where an

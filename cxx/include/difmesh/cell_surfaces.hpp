@@ -26,7 +26,8 @@ enum class CellSurfaceSource : std::uint8_t {
 enum class CellSurfaceKind : std::uint8_t {
   /// 13 columns, else a paraboloid: the least error of position.
   position,
-  /// 25 columns, else a quartic, else 13 columns, else a paraboloid: the least error of curvature.
+  /// 25 columns, else a quartic where cells are at most 1.5 times as long as wide, else 13 columns,
+  /// else a paraboloid: the least error of curvature.
   curvature,
 };
 
@@ -73,8 +74,9 @@ struct CellSurface {
 /// - Fits minimise the squares of the differences of fractions, weighted by distance, with the
 ///   volume under the graph right to second order in its distance from the tangent plane, and right
 ///   to rounding in quadratic fits where it grazes faces of cells.
-/// - Planes are exact to rounding, up to open sides, where fits take the cells that there are; the
-///   few cells next to these that are nearly pure know theirs to some digits only, or not at all.
+/// - Planes are exact to rounding, up to open sides, where fits take the cells that there are. Next
+///   to these the nearly pure cells know theirs to some digits only, and the curvature of few cells
+///   may be off by more than itself; so may it be where bodies have less than 4 cells per radius.
 /// - Next to `mirror`, `periodic`, `empty` and `full` sides, cells beyond count as what is there.
 ///   On stretched axes fits work in space, and heights with the cells' widths.
 ///
@@ -83,7 +85,8 @@ struct CellSurface {
 /// \param cells indices of cells in the grid; \param surfaces as many results
 /// \throw Error as cell_planes(). The field is not validated; NaN count as 0.
 /// Cost: on one thread 3 µs per cell where 13 heights hold, 6 µs for 25, 40 µs where a paraboloid
-/// is fitted, some 200 µs for a quartic; on options.threads threads.
+/// is fitted, some 200 µs for a quartic, and as much in vain on interfaces that are smeared over
+/// many cells, of which none owns a surface; on options.threads threads.
 /// Thread safety: concurrent calls are safe.
 /// Source: docs/method.md, "Curved cell surfaces"; curvature of level sets: R. Goldman, Comput.
 /// Aided Geom. Des. 22 (2005) 632-658.

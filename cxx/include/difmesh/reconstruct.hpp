@@ -20,8 +20,9 @@ struct Reconstruction {
 
 /// Reconstructs the surface of the whole field.
 ///
-/// Marching cubes runs on the dual grid, whose nodes are the cell centres, at level 1/2; the vertex
-/// on each crossed dual edge is put where options.placement says. The result is edge- and
+/// Marching cubes runs on the dual grid, whose nodes are the cell centres, at level 1/2 (with
+/// `curved` a centre with 0.3 < γ < 0.7 may be on the other side: see Report::moved_centres); the
+/// vertex on each crossed dual edge is put where options.placement says. The result is edge- and
 /// vertex-manifold and free of self-intersections for every input, and bit-identical for any number
 /// of threads.
 /// - `open` sides: the dual grid has more nodes on the domain faces, edges and corners, and the
@@ -35,7 +36,8 @@ struct Reconstruction {
 ///   the order z, y, x is named), too_large, cancelled; OutOfMemory, early where that is known
 /// Cost: one pass over the field, then O(interfacial cells). Memory beyond the output: one bit per
 /// cell, some bytes per row of cells, and what the interfacial cells of two slabs and of the
-/// outermost layers need. Thread safety: concurrent calls are safe.
+/// outermost layers need; with Placement::curved 200 bytes for each interfacial cell, and up to a
+/// hundred times the time where it is smeared. Thread safety: concurrent calls are safe.
 /// Source: E19, as docs/method.md lays out.
 [[nodiscard]] Reconstruction reconstruct(const FieldView& field, const Grid& grid,
                                          const Options& options = {});

@@ -18,6 +18,14 @@ constexpr double kTied = 1e-6;
 constexpr double kMayFlip = 0.3;
 constexpr double kMostAway = 1.8;  // cells
 
+// Fifteen coefficients are too many for cells that are long: what is known of the surface along
+// them does not reach two cells across.
+bool serve_quartics(const Vec3& size) {
+  constexpr double kMostRatio = 1.5;
+  return std::max({size[0], size[1], size[2]}) <=
+         kMostRatio * std::min({size[0], size[1], size[2]});
+}
+
 // From columns along all axes that have the same right.
 std::optional<LocalSurface> from_heights(const Neighbourhood& cells, const Vec3& m,
                                          const HeightRule& rule) {
@@ -56,7 +64,7 @@ std::optional<LocalSurface> best_surface(const Neighbourhood& cells, const Vec3&
   std::optional<LocalSurface> result;
   if (kind == CellSurfaceKind::curvature) {
     result = from_heights(cells, m, kCurvatureHeights);
-    if (!result) {
+    if (!result && serve_quartics(cells.size())) {
       result = from_fit<4>(cells, m);
     }
   }
