@@ -71,23 +71,37 @@ TEST_CASE("builder: any slabs give the whole to the last bit and its report") {
     for (const Side side : {Side::open, Side::mirror, Side::empty, Side::full}) {
       check_all_cuts(field, with_sides(side, side, side, side));
     }
-    Options curved = with_sides(Side::mirror, Side::empty, Side::open, Side::full);
-    curved.placement = Placement::curved;
-    check_all_cuts(field, curved);
     check_all_cuts(field, with_sides(Side::periodic, Side::open, Side::full, Side::open));
   }
 }
 
 TEST_CASE("builder: every placement and normal with vertex normals") {
   const OwnedField field = test::white_noise({8, 7, 19}, 7);
-  for (const Placement placement : {Placement::midpoint, Placement::linear, Placement::manson,
-                                    Placement::plic, Placement::curved}) {
+  for (const Placement placement :
+       {Placement::midpoint, Placement::linear, Placement::manson, Placement::plic}) {
     for (const Normals normals : {Normals::youngs, Normals::height_function, Normals::lvira}) {
       Options options;
       options.placement = placement;
       options.normals = normals;
       options.vertex_normals = true;
       check_all_cuts(field, options);
+    }
+  }
+}
+
+TEST_CASE("builder: curved surfaces, whose ghost layers are more") {
+  Options options = with_sides(Side::mirror, Side::empty, Side::open, Side::full);
+  options.placement = Placement::curved;
+  options.vertex_normals = true;
+  options.edge_ids = true;
+  for (const OwnedField& field : {test::blob({17, 15, 24}), test::near_half_noise({5, 6, 22}, 4)}) {
+    const Grid grid{field.dims, {0.1, -0.7, 3.3}, {0.3, 0.1, 0.7}};
+    const Reconstruction whole = reconstruct(field.view(), grid, options);
+    REQUIRE(whole.mesh.triangles.size() > 100);
+    for (const std::int64_t thickness : {1, 7}) {
+      const Reconstruction built = test::in_slabs(field.view(), grid, options, thickness, 4);
+      CHECK(test::same_bits(built.mesh, whole.mesh));
+      CHECK(test::difference(built.report, whole.report) == "");
     }
   }
 }
