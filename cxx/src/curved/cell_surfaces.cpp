@@ -1,9 +1,8 @@
 #include "difmesh/cell_surfaces.hpp"
 
-#include <cmath>
-
 #include "base/parallel.hpp"
 #include "base/vector3.hpp"
+#include "curved/neighbourhood.hpp"
 #include "curved/surface_maker.hpp"
 #include "difmesh/error.hpp"
 #include "difmesh/float_environment.hpp"
@@ -55,15 +54,13 @@ void cell_surfaces(const FieldView& field, const Grid& grid, std::span<const Ind
   detail::Phases phases(workers, options.progress);
   detail::with_scalar(field.type, [&](auto type) {
     const detail::SurfaceMaker<decltype(type)> maker(block, kind);
-    phases.run(
-        1.0, static_cast<std::int64_t>(cells.size()), kCellsPerPortion,
-        [&](std::int64_t begin, std::int64_t end) {
-          for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n) {
-            const Vec3 size = block.cell_size(cells[n]);
-            surfaces[n] = in_space(maker(cells[n]),
-                                   std::cbrt(size[0]) * std::cbrt(size[1]) * std::cbrt(size[2]));
-          }
-        });
+    phases.run(1.0, static_cast<std::int64_t>(cells.size()), kCellsPerPortion,
+               [&](std::int64_t begin, std::int64_t end) {
+                 for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end);
+                      ++n) {
+                   surfaces[n] = in_space(maker(cells[n]), detail::unit_length(block, cells[n]));
+                 }
+               });
   });
   phases.finish();
 }

@@ -11,7 +11,6 @@ namespace difmesh::detail {
 namespace {
 
 constexpr int kCandidateReach = 2;  // cells that may have a weight
-constexpr double kMostAway = 1.8;   // cells from the centre to the foot of a surface
 constexpr double kDiverged = 3.0;   // a change of coefficients as large as that
 constexpr double kSettled = 1e-4;   // and as small as that, if more would remain unexplained
 constexpr double kExact = 1e-8;     // and as small as that, where nothing would

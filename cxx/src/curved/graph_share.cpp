@@ -132,7 +132,7 @@ GraphShare<kDegree> share_below(const PlaneGraph<kDegree>& graph, const Box& box
     is_done = grazes && add_grazing_share(graph, plane, box.size, added, result.slopes);
   }
   if (!is_done) {
-    const PlaneSection section(plane.in_space, box.size);
+    const PlaneSection section = PlaneSection::of_box(plane.in_space, box.size);
     if (section.corners() >= 3) {
       result.slopes = integrals(section, plane);
       double below_graph = 0.0;

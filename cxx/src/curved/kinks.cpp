@@ -11,16 +11,6 @@ constexpr double kLeastApart = 0.02;  // distances that are no kink, in the unit
 constexpr double kApartByBend = 0.6;  // or up to this times the square of the bend
 constexpr double kFlat = 0.4;         // bends at which each cell should own a surface
 
-// As for LocalSurface.
-Vec3 foot_of(const OwnedSurface& surface) {
-  Vec3 x{0.0, 0.0, 0.0};
-  for (int n = 0; n < 2; ++n) {
-    const FunctionJet jet = surface.jet(x);
-    x = minus(x, scaled(jet.gradient, jet.value / squared_length(jet.gradient)));
-  }
-  return x;
-}
-
 }  // namespace
 
 bool is_kinked(const SurfaceTable& table, const Index3& cell, const OwnedSurface& surface) {

@@ -93,16 +93,6 @@ FunctionJet LocalSurface::jet(const Vec3& x) const {
   return sum;
 }
 
-Vec3 foot_of(const LocalSurface& surface) {
-  constexpr int kSteps = 2;
-  Vec3 x{0.0, 0.0, 0.0};
-  for (int n = 0; n < kSteps; ++n) {
-    const FunctionJet jet = surface.jet(x);
-    x = minus(x, scaled(jet.gradient, jet.value / squared_length(jet.gradient)));
-  }
-  return x;
-}
-
 LevelCurvature curvature_of(const FunctionJet& jet) {
   const Vec3& g = jet.gradient;
   const auto& h = jet.hessian;

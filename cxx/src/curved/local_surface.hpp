@@ -17,6 +17,12 @@ using Coefficients = std::array<double, 25>;
   return 5 * p + q;
 }
 
+/// A surface that puts the cell's centre on the other side than the fraction does is believed where
+/// the fraction is at least so far from 0 and 1.
+inline constexpr double kMayFlip = 0.3;
+/// Cells from the centre to a surface that it may own.
+inline constexpr double kMostAway = 1.8;
+
 /// A polynomial and its derivatives at a point.
 struct GraphJet {
   double value = 0.0;
@@ -69,8 +75,17 @@ struct LocalSurface {
   [[nodiscard]] FunctionJet jet(const Vec3& x) const;
 };
 
-/// The point of the surface next to the cell's centre, to second order.
-[[nodiscard]] Vec3 foot_of(const LocalSurface& surface);
+/// The point of a surface next to the cell's centre, to second order.
+template <class Surface>
+[[nodiscard]] Vec3 foot_of(const Surface& surface) {
+  constexpr int kSteps = 2;
+  Vec3 x{0.0, 0.0, 0.0};
+  for (int n = 0; n < kSteps; ++n) {
+    const FunctionJet jet = surface.jet(x);
+    x = minus(x, scaled(jet.gradient, jet.value / squared_length(jet.gradient)));
+  }
+  return x;
+}
 
 /// Of the level set through a point, in 1 / unit; positive where the material is convex.
 struct LevelCurvature {

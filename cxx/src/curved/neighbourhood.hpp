@@ -17,6 +17,14 @@ namespace difmesh::detail {
 inline constexpr std::int64_t kPositionReach = 5;
 inline constexpr std::int64_t kCurvatureReach = 6;
 
+/// The unit of local_surface.hpp: the cube root of a cell's volume.
+[[nodiscard]] inline double unit_length(const Vec3& size) {
+  return std::cbrt(size[0]) * std::cbrt(size[1]) * std::cbrt(size[2]);
+}
+[[nodiscard]] inline double unit_length(const BlockField& field, const Index3& cell) {
+  return unit_length(field.cell_size(cell));
+}
+
 /// Fractions, sizes and centres. Along each axis lengths are counted in widths of the middle cell;
 /// size() gives these in the unit of local_surface.hpp.
 class Neighbourhood : public CellsAround<kCurvatureReach> {
@@ -25,9 +33,9 @@ class Neighbourhood : public CellsAround<kCurvatureReach> {
   Neighbourhood(const BlockField& field, const Index3& cell, std::int64_t reach)
       : CellsAround(field, cell, reach), purity_tolerance_(field.purity_tolerance) {
     const Vec3 own = field.cell_size(cell);
-    length_ = std::cbrt(own[0]) * std::cbrt(own[1]) * std::cbrt(own[2]);
+    const double length = unit_length(own);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      size_[axis] = own[axis] / length_;
+      size_[axis] = own[axis] / length;
       is_uniform_[axis] = field.grid.is_uniform(axis);
       set_axis(field, axis, cell[axis], own[axis]);
       if (!is_uniform_[axis]) {
@@ -37,10 +45,7 @@ class Neighbourhood : public CellsAround<kCurvatureReach> {
   }
 
   [[nodiscard]] double purity_tolerance() const { return purity_tolerance_; }
-  /// The unit of local_surface.hpp, in that of the grid.
-  [[nodiscard]] double length() const { return length_; }
   [[nodiscard]] const Vec3& size() const { return size_; }
-  [[nodiscard]] bool is_uniform(std::size_t axis) const { return is_uniform_[axis]; }
   [[nodiscard]] double width(std::size_t axis, std::int64_t step) const {
     return widths_[axis][static_cast<std::size_t>(step + kCurvatureReach)];
   }
@@ -82,7 +87,6 @@ class Neighbourhood : public CellsAround<kCurvatureReach> {
   }
 
   double purity_tolerance_;
-  double length_;
   Vec3 size_{};
   std::array<bool, 3> is_uniform_{};
   std::array<std::array<double, kCells>, 3> widths_;

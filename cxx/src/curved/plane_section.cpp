@@ -18,11 +18,12 @@ std::size_t main_axis(const PlaneInSpace& plane) {
 
 }  // namespace
 
-PlaneSection::PlaneSection(const PlaneInSpace& plane, const Vec3& size)
-    : PlaneSection(plane, size, main_axis(plane)) {
+PlaneSection PlaneSection::of_box(const PlaneInSpace& plane, const Vec3& size) {
   const std::size_t axis = main_axis(plane);
-  cut(plane, size, static_cast<BoxFace>(2 * axis));
-  cut(plane, size, static_cast<BoxFace>(2 * axis + 1));
+  PlaneSection section(plane, size, axis);
+  section.cut(plane, size, static_cast<BoxFace>(2 * axis));
+  section.cut(plane, size, static_cast<BoxFace>(2 * axis + 1));
+  return section;
 }
 
 // The corners are where the plane meets the four edges along the axis, or their continuations.

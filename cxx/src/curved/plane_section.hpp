@@ -42,7 +42,7 @@ class PlaneSection {
   };
 
   /// Within all faces of the box.
-  PlaneSection(const PlaneInSpace& plane, const Vec3& size);
+  [[nodiscard]] static PlaneSection of_box(const PlaneInSpace& plane, const Vec3& size);
   /// Within the four faces across the other two axes. \pre the plane is not parallel to the axis
   PlaneSection(const PlaneInSpace& plane, const Vec3& size, std::size_t axis);
 

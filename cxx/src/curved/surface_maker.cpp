@@ -13,10 +13,6 @@ namespace {
 
 // Axes whose components of the normal differ by no more have the same right to the columns.
 constexpr double kTied = 1e-6;
-// A surface that puts the cell's centre on the other side than the fraction does is believed where
-// the fraction is not further from 0 and 1.
-constexpr double kMayFlip = 0.3;
-constexpr double kMostAway = 1.8;  // cells
 
 // Fifteen coefficients are too many for cells that are long: what is known of the surface along
 // them does not reach two cells across.

@@ -58,11 +58,6 @@ double centre_distance(const BlockField& field, std::size_t axis, std::int64_t i
   return distance;
 }
 
-double unit_length(const BlockField& field, const Index3& cell) {
-  const Vec3 size = field.cell_size(cell);
-  return std::cbrt(size[0]) * std::cbrt(size[1]) * std::cbrt(size[2]);
-}
-
 SurfaceTable::SurfaceTable(const BlockField& field, Phases& phases, double weight)
     : field_(field), uniform_length_(unit_length(field, field.block.offset)) {
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "curved/neighbourhood.hpp"
 #include "curved/position_graph.hpp"
 #include "difmesh/array.hpp"
 #include "grid/block_field.hpp"
@@ -15,8 +16,6 @@ namespace difmesh::detail {
 /// Distance between the centres of a cell and one some steps along an axis, in the grid's unit.
 [[nodiscard]] double centre_distance(const BlockField& field, std::size_t axis, std::int64_t index,
                                      std::int64_t steps);
-/// Cube root of a cell's volume.
-[[nodiscard]] double unit_length(const BlockField& field, const Index3& cell);
 
 /// The surface that a cell of the table owns: the mean of its graphs' functions, in the cell's unit
 /// of length. Behind a mirror it is seen mirrored.

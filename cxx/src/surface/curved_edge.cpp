@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/vector3.hpp"
-#include "surface/node_place.hpp"
 
 namespace difmesh::detail {
 namespace {
@@ -15,29 +14,26 @@ constexpr double kKinkedShare = 0.5;
 }  // namespace
 
 CurvedEdge::CurvedEdge(const SurfaceTable& table, const DualGrid& grid, const DualEdge& edge)
-    : axis_(edge.axis),
-      extent_(grid.coordinate(edge.axis, edge.upper[edge.axis]) -
-              grid.coordinate(edge.axis, edge.lower[edge.axis])),
-      lower_(end_at(table, grid, edge.lower)),
-      upper_(end_at(table, grid, edge.upper)) {
+    : axis_(edge.axis) {
   const BlockField& field = table.field();
   const NodePlace low = place_of(field, edge.lower);
   const NodePlace high = place_of(field, edge.upper);
+  lower_ = end_at(table, low, grid.nodes().test(edge.lower));
+  upper_ = end_at(table, high, grid.nodes().test(edge.upper));
   if (low.cell == high.cell) {
     // From the centre to a face, or between faces: the one cell's surface as it is.
     extent_ = high.from_centre[axis_] - low.from_centre[axis_];
     upper_.ownership = Ownership::pure;
   } else if (field.grid.is_uniform(axis_)) {
     extent_ = field.grid.spacing[axis_];
+  } else {
+    extent_ = grid.coordinate(axis_, edge.upper[axis_]) - grid.coordinate(axis_, edge.lower[axis_]);
   }
 }
 
-CurvedEdge::End CurvedEdge::end_at(const SurfaceTable& table, const DualGrid& grid,
-                                   const Index3& node) const {
-  const NodePlace place = place_of(table.field(), node);
+CurvedEdge::End CurvedEdge::end_at(const SurfaceTable& table, const NodePlace& place, bool inside) {
   const SurfaceAt there = table.at(place.cell);
-  return {there.ownership, there.surface, place.from_centre, table.length(place.cell),
-          grid.nodes().test(node)};
+  return {there.ownership, there.surface, place.from_centre, table.length(place.cell), inside};
 }
 
 // Of a point of the edge from the lower node, `along` it from this end.

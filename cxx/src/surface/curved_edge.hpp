@@ -3,6 +3,7 @@
 
 #include "curved/surface_table.hpp"
 #include "surface/dual_grid.hpp"
+#include "surface/node_place.hpp"
 #include "surface/vertex_placer.hpp"
 
 namespace difmesh::detail {
@@ -30,8 +31,7 @@ class CurvedEdge {
     [[nodiscard]] bool owns() const { return ownership == Ownership::owned; }
   };
 
-  [[nodiscard]] End end_at(const SurfaceTable& table, const DualGrid& grid,
-                           const Index3& node) const;
+  [[nodiscard]] static End end_at(const SurfaceTable& table, const NodePlace& place, bool inside);
   [[nodiscard]] bool contradicts(const End& end) const;
   [[nodiscard]] Vec3 seen_from(const End& end, double along) const;
   [[nodiscard]] double at(double share) const;

@@ -9,8 +9,6 @@
 namespace difmesh::detail {
 namespace {
 
-constexpr double kMayFlip = 0.3;
-
 // Whether the surfaces around a cell agree with each other, so that its own may be believed.
 bool is_settled(const SurfaceTable& table, const Index3& cell) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
