@@ -15,11 +15,11 @@
 #include <vector>
 
 #include "difmesh/cell_planes.hpp"
-#include "difmesh/fractions_from_function.hpp"
 #include "difmesh/shapes.hpp"
 #include "support/errors.hpp"
 #include "support/fields.hpp"
 #include "support/grids.hpp"
+#include "support/shape_fields.hpp"
 
 using namespace difmesh;
 using namespace difmesh::test;
@@ -40,38 +40,12 @@ CellsOf surfaces_of(const FieldView& field, const Grid& grid, CellSurfaceKind ki
   return result;
 }
 
-Shape sphere(const Vec3& centre, double radius) {
-  ShapeOptions options;
-  options.kind = shape_kind("sphere");
-  options.centre = centre;
-  options.radius = radius;
-  return make_shape(options);
-}
-
 OwnedField fractions(const Grid& grid, const Shape& shape) {
-  FractionsFromFunctionOptions options;
-  options.tolerance = 1e-11;
-  const FractionsFromFunction made = fractions_from_shape(grid, shape, options);
-  OwnedField field(grid.dims);
-  std::copy(made.fractions.begin(), made.fractions.end(), field.values.begin());
-  return field;
+  return fractions_of(grid, shape, 1e-11);
 }
 
-struct Errors {
-  double rms = 0.0;
-  double most = 0.0;
-  std::size_t count = 0;
+struct Errors : ErrorSums {
   std::size_t without = 0;
-
-  void add(double error) {
-    rms += error * error;
-    most = std::max(most, std::abs(error));
-    ++count;
-  }
-  Errors& finish() {
-    rms = std::sqrt(rms / static_cast<double>(count));
-    return *this;
-  }
 };
 
 // Of radius times mean curvature on spheres about random points of the middle cell.
@@ -84,7 +58,7 @@ Errors curvature_errors(double radius, int centres) {
     const Grid grid{{cells, cells, cells}, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}};
     const double middle = 0.5 * static_cast<double>(cells);
     const Vec3 centre{middle + within(random), middle + within(random), middle + within(random)};
-    const OwnedField field = fractions(grid, sphere(centre, radius));
+    const OwnedField field = fractions(grid, ball(centre, radius));
     for (const CellSurface& surface :
          surfaces_of(field.view(), grid, CellSurfaceKind::curvature).surfaces) {
       if (surface.source == CellSurfaceSource::none) {
@@ -94,7 +68,7 @@ Errors curvature_errors(double radius, int centres) {
       }
     }
   }
-  return errors.finish();
+  return errors;
 }
 
 struct Seen {
@@ -146,9 +120,9 @@ TEST_CASE("cell surfaces: curvature of spheres is below what is in print for hei
                                  Printed{15.4, 2, 4.3e-3, 0.071}, Printed{25.6, 1, 1.0e-3, 0.014},
                                  Printed{44.2, 1, 3.2e-4, 3.3e-3}}) {
     const Errors errors = curvature_errors(printed.radius, printed.centres);
-    MESSAGE("R " << printed.radius << ": rms " << errors.rms << ", largest " << errors.most);
+    MESSAGE("R " << printed.radius << ": rms " << errors.rms() << ", largest " << errors.most);
     CHECK(errors.without == 0);
-    CHECK(errors.rms < printed.rms);
+    CHECK(errors.rms() < printed.rms);
     CHECK(errors.most < printed.most);
   }
 }
@@ -223,10 +197,10 @@ TEST_CASE("cell surfaces: a torus has its curvatures") {
     CHECK(surface.largest + surface.smallest == doctest::Approx(2.0 * surface.mean));
   }
   REQUIRE(mean.count > 5000);
-  MESSAGE("torus: mean " << mean.finish().rms << " / " << mean.most << ", Gaussian "
-                         << gaussian.finish().rms << " / " << gaussian.most);
-  CHECK(mean.rms < 0.02);
-  CHECK(gaussian.rms < 0.03);
+  MESSAGE("torus: mean " << mean.rms() << " / " << mean.most << ", Gaussian " << gaussian.rms()
+                         << " / " << gaussian.most);
+  CHECK(mean.rms() < 0.02);
+  CHECK(gaussian.rms() < 0.03);
 }
 
 TEST_CASE("cell surfaces: long cells have the curvature of the body, not of the fit") {
@@ -237,7 +211,7 @@ TEST_CASE("cell surfaces: long cells have the curvature of the body, not of the 
       grid.dims[axis] = static_cast<std::int64_t>(10.0 / spacing[axis]) + 8;
       grid.origin[axis] = -0.5 * static_cast<double>(grid.dims[axis]) * spacing[axis] + 0.013;
     }
-    const OwnedField field = fractions(grid, sphere({0.0, 0.0, 0.0}, 5.0));
+    const OwnedField field = fractions(grid, ball({0.0, 0.0, 0.0}, 5.0));
     Errors errors;
     for (const CellSurface& surface :
          surfaces_of(field.view(), grid, CellSurfaceKind::curvature).surfaces) {
@@ -245,17 +219,16 @@ TEST_CASE("cell surfaces: long cells have the curvature of the body, not of the 
         errors.add(5.0 * surface.mean - 1.0);
       }
     }
-    errors.finish();
-    MESSAGE("long cells: " << errors.rms << " / " << errors.most);
+    MESSAGE("long cells: " << errors.rms() << " / " << errors.most);
     CHECK(errors.count > 2000);
-    CHECK(errors.rms < 0.02);
+    CHECK(errors.rms() < 0.02);
     CHECK(errors.most < 0.3);
   }
 }
 
 TEST_CASE("cell surfaces: a bubble curves the other way") {
   const Grid grid{{24, 24, 24}, {-1.2, -1.2, -1.2}, {0.1, 0.1, 0.1}};
-  OwnedField field = fractions(grid, sphere({0.013, 0.02, -0.031}, 0.9));
+  OwnedField field = fractions(grid, ball({0.013, 0.02, -0.031}, 0.9));
   const CellsOf drop = surfaces_of(field.view(), grid, CellSurfaceKind::curvature);
   for (double& value : field.values) {
     value = 1.0 - value;
@@ -351,7 +324,7 @@ TEST_CASE("cell surfaces: turned and mirrored fields have turned surfaces") {
   // About the grid's centre, so that normals tie, and beside it.
   for (const Vec3& centre : {Vec3{0.0, 0.0, 0.0}, Vec3{0.017, -0.031, 0.023}}) {
     const Grid grid{{20, 20, 20}, {-1.0, -1.0, -1.0}, {0.1, 0.1, 0.1}};
-    const OwnedField field = fractions(grid, sphere(centre, 0.77));
+    const OwnedField field = fractions(grid, ball(centre, 0.77));
     for (const CellSurfaceKind kind : {CellSurfaceKind::position, CellSurfaceKind::curvature}) {
       const CellsOf all = surfaces_of(field.view(), grid, kind);
       double most = 0.0;
@@ -385,7 +358,7 @@ TEST_CASE("cell surfaces: turned and mirrored fields have turned surfaces") {
 
 TEST_CASE("cell surfaces: beyond mirrors and periodic sides is what stands there") {
   const Grid whole{{24, 24, 24}, {-1.2, -1.2, -1.2}, {0.1, 0.1, 0.1}};
-  const OwnedField field = fractions(whole, sphere({0.0, 0.0, 0.0}, 0.83));
+  const OwnedField field = fractions(whole, ball({0.0, 0.0, 0.0}, 0.83));
   const CellsOf all = surfaces_of(field.view(), whole, CellSurfaceKind::curvature);
   const auto whole_at = [&](const Index3& cell) {
     const auto found = std::find(all.cells.begin(), all.cells.end(), cell);
@@ -430,7 +403,7 @@ TEST_CASE("cell surfaces: beyond mirrors and periodic sides is what stands there
 
 TEST_CASE("cell surfaces: threads and element types change no bit") {
   const Grid grid{{24, 22, 20}, {-1.2, -1.1, -1.0}, {0.1, 0.1, 0.1}};
-  OwnedField field = fractions(grid, sphere({0.0, 0.05, 0.0}, 0.9));
+  OwnedField field = fractions(grid, ball({0.0, 0.05, 0.0}, 0.9));
   std::vector<float> narrow(field.values.begin(), field.values.end());
   std::copy(narrow.begin(), narrow.end(), field.values.begin());  // values that both hold
   Options options;
@@ -446,7 +419,7 @@ TEST_CASE("cell surfaces: threads and element types change no bit") {
 
 TEST_CASE("cell surfaces: a table that is uniform, and units, change nothing but the unit") {
   const Grid grid{{20, 20, 20}, {-1.0, -1.0, -1.0}, {0.1, 0.1, 0.1}};
-  const OwnedField field = fractions(grid, sphere({0.01, 0.02, 0.0}, 0.8));
+  const OwnedField field = fractions(grid, ball({0.01, 0.02, 0.0}, 0.8));
   const CellsOf all = surfaces_of(field.view(), grid, CellSurfaceKind::curvature);
   Grid large = grid;
   large.spacing = {0.1 * 1024.0, 0.1 * 1024.0, 0.1 * 1024.0};
@@ -471,7 +444,7 @@ TEST_CASE("cell surfaces: a table that is uniform, and units, change nothing but
 
 TEST_CASE("cell surfaces: graphs are the surface that foot and curvature tell") {
   const Grid grid{{20, 20, 20}, {-1.0, -1.0, -1.0}, {0.1, 0.1, 0.1}};
-  const OwnedField field = fractions(grid, sphere({0.01, 0.02, 0.0}, 0.8));
+  const OwnedField field = fractions(grid, ball({0.01, 0.02, 0.0}, 0.8));
   for (const CellSurface& surface :
        surfaces_of(field.view(), grid, CellSurfaceKind::curvature).surfaces) {
     if (surface.source == CellSurfaceSource::none) {

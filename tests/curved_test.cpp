@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "difmesh/fractions_from_function.hpp"
 #include "difmesh/measure.hpp"
 #include "difmesh/reconstruct.hpp"
 #include "difmesh/shapes.hpp"
 #include "support/fields.hpp"
 #include "support/grids.hpp"
 #include "support/near_pure.hpp"
+#include "support/shape_fields.hpp"
 
 using namespace difmesh;
 using namespace difmesh::test;
@@ -61,26 +61,10 @@ Grid grid_around(const Shape& shape, const Vec3& spacing, std::mt19937_64& rando
 }
 
 OwnedField fractions(const Grid& grid, const Shape& shape) {
-  FractionsFromFunctionOptions options;
-  options.tolerance = 1e-12;
-  const FractionsFromFunction made = fractions_from_shape(grid, shape, options);
-  OwnedField field(grid.dims);
-  std::copy(made.fractions.begin(), made.fractions.end(), field.values.begin());
-  return field;
+  return fractions_of(grid, shape, 1e-12);
 }
 
-struct Errors {
-  double squares = 0.0;
-  double count = 0.0;
-  double most = 0.0;
-
-  void add(double error) {
-    squares += error * error;
-    count += 1.0;
-    most = std::max(most, std::abs(error));
-  }
-  [[nodiscard]] double rms() const { return std::sqrt(squares / count); }
-};
+using Errors = ErrorSums;
 
 // In the largest spacing.
 Errors errors_of(const std::string& name, const Vec3& spacing, int centres,

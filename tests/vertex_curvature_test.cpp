@@ -10,33 +10,20 @@
 #include <random>
 #include <string>
 
-#include "difmesh/fractions_from_function.hpp"
 #include "difmesh/reconstruct.hpp"
 #include "difmesh/shapes.hpp"
 #include "support/errors.hpp"
 #include "support/fields.hpp"
 #include "support/grids.hpp"
+#include "support/shape_fields.hpp"
 
 using namespace difmesh;
 using namespace difmesh::test;
 
 namespace {
 
-Shape ball(const Vec3& centre, double radius) {
-  ShapeOptions options;
-  options.kind = shape_kind("sphere");
-  options.centre = centre;
-  options.radius = radius;
-  return make_shape(options);
-}
-
 OwnedField fractions(const Grid& grid, const Shape& shape) {
-  FractionsFromFunctionOptions options;
-  options.tolerance = 1e-11;
-  const FractionsFromFunction made = fractions_from_shape(grid, shape, options);
-  OwnedField field(grid.dims);
-  std::copy(made.fractions.begin(), made.fractions.end(), field.values.begin());
-  return field;
+  return fractions_of(grid, shape, 1e-11);
 }
 
 Options with_ids(Placement placement = Placement::curved) {
@@ -46,18 +33,7 @@ Options with_ids(Placement placement = Placement::curved) {
   return options;
 }
 
-struct Errors {
-  double squares = 0.0;
-  double count = 0.0;
-  double most = 0.0;
-
-  void add(double error) {
-    squares += error * error;
-    count += 1.0;
-    most = std::max(most, std::abs(error));
-  }
-  [[nodiscard]] double rms() const { return std::sqrt(squares / count); }
-};
+using Errors = ErrorSums;
 
 }  // namespace
 

@@ -85,33 +85,6 @@ PlanePolynomial<2>::Terms integrals(const PlaneSection& section, const TangentPl
           tt + 2.0 * eta * t + eta * eta * one};
 }
 
-// What the sides of the box cut off between plane and graph: along an edge of the section the side
-// leans by the ratio of normal and slope, so that the strip's area is half the square of the
-// graph's distance by it.
-template <int kDegree>
-double cut_off(const PlaneGraph<kDegree>& graph, const PlaneSection& section,
-               const TangentPlane<kDegree>& plane) {
-  double result = 0.0;
-  for (std::size_t n = 0; n < section.corners(); ++n) {
-    const PlaneSection::Edge edge = section.edge(n);
-    const double length = length_of(edge);
-    const double slope = plane.slopes[axis_of(edge.face)];
-    if (length < kNoLength || slope < kNoSlope) {
-      continue;
-    }
-    double squares = 0.0;
-    for (const GaussPoint& point : kGauss3) {
-      const double s = edge.from.s + point.at * (edge.to.s - edge.from.s);
-      const double t = edge.from.t + point.at * (edge.to.t - edge.from.t);
-      const double apart = plane.distance_to(graph, s, t);
-      squares += point.weight * apart * apart;
-    }
-    result +=
-        sense_of(edge.face) * graph.frame[2][axis_of(edge.face)] / (2.0 * slope) * squares * length;
-  }
-  return result;
-}
-
 }  // namespace
 
 template <int kDegree>
@@ -142,7 +115,12 @@ GraphShare<kDegree> share_below(const PlaneGraph<kDegree>& graph, const Box& box
       const double below_plane =
           (plane.value - plane.by_xi * plane.xi - plane.by_eta * plane.eta) * result.slopes[0] +
           plane.by_xi * result.slopes[1] + plane.by_eta * result.slopes[2];
-      added = below_graph - below_plane - cut_off(graph, section, plane);
+      added =
+          below_graph - below_plane -
+          cut_off_by_sides(section, plane, graph.frame[2], [&](double weight, double s, double t) {
+            const double apart = plane.distance_to(graph, s, t);
+            return weight * apart * apart;
+          });
     }
   }
   result.share += added / volume;

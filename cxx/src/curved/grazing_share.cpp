@@ -122,7 +122,12 @@ class GrazedCell {
         add_slice(from + point.at * (to - from), point.weight * (to - from), volume, slopes);
       }
     });
-    volume -= cut_off();
+    volume -= cut_off_by_sides(section_, plane_, graph_.frame[2],
+                               [this](double weight, double s, double t) {
+                                 const double graph = between_faces(apart(s, t), s);
+                                 const double plane = between_faces(0.0, s);
+                                 return weight * (graph * graph - plane * plane);
+                               });
   }
 
  private:
@@ -219,29 +224,6 @@ class GrazedCell {
         }
       }
     });
-  }
-
-  // As for other sections, of what is between the faces.
-  [[nodiscard]] double cut_off() const {
-    double result = 0.0;
-    for (std::size_t n = 0; n < section_.corners(); ++n) {
-      const auto [from, to, face] = section_.edge(n);
-      const double length = length_of(section_.edge(n));
-      const double slope = plane_.slopes[axis_of(face)];
-      if (length < kNoLength || slope < kNoSlope) {
-        continue;
-      }
-      double squares = 0.0;
-      for (const GaussPoint& point : kGauss3) {
-        const double s = from.s + point.at * (to.s - from.s);
-        const double t = from.t + point.at * (to.t - from.t);
-        const double graph = between_faces(apart(s, t), s);
-        const double plane = between_faces(0.0, s);
-        squares += point.weight * (graph * graph - plane * plane);
-      }
-      result += sense_of(face) * graph_.frame[2][axis_of(face)] / (2.0 * slope) * squares * length;
-    }
-    return result;
   }
 
   const PlaneGraph<2>& graph_;

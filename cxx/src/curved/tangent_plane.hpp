@@ -66,4 +66,31 @@ struct TangentPlane {
   }
 };
 
+/// What the sides of the box cut off between plane and graph: along an edge of the section the side
+/// leans by the ratio of normal and slope, so that the strip's area is half the square of the
+/// graph's distance by it.
+/// \param square of that distance, times a weight, at a point of the section
+template <int kDegree, class Square>
+[[nodiscard]] double cut_off_by_sides(const PlaneSection& section,
+                                      const TangentPlane<kDegree>& plane, const Vec3& zeta,
+                                      const Square& square) {
+  double result = 0.0;
+  for (std::size_t n = 0; n < section.corners(); ++n) {
+    const PlaneSection::Edge edge = section.edge(n);
+    const std::size_t axis = axis_of(edge.face);
+    const double length = length_of(edge);
+    const double slope = plane.slopes[axis];
+    if (length < kNoLength || slope < kNoSlope) {
+      continue;
+    }
+    double squares = 0.0;
+    for (const GaussPoint& point : kGauss3) {
+      squares += square(point.weight, edge.from.s + point.at * (edge.to.s - edge.from.s),
+                        edge.from.t + point.at * (edge.to.t - edge.from.t));
+    }
+    result += sense_of(edge.face) * zeta[axis] / (2.0 * slope) * squares * length;
+  }
+  return result;
+}
+
 }  // namespace difmesh::detail
